@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "core/error.h"
+
+namespace slambench {
+
+/// What a subcommand does once its arguments are parsed. Errors are thrown (core/error.h).
+using Action = std::function<ExitStatus()>;
+
+/// Each declares its arguments on `command` and returns what to do with them.
+Action add_evaluate(CLI::App& command);
+
+}  // namespace slambench

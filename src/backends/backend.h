@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/image.h"
+#include "core/trajectory.h"
+#include "kernels/kernel.h"
+#include "kernels/observer.h"
+#include "kernels/types.h"
+
+namespace slambench {
+
+/// How the volume is stored; every kind gives the same results to 2 units of the stored distance.
+enum class MapKind {
+  grid,  ///< the paper's flat array
+};
+std::string_view name(MapKind map);
+
+/// Memory that a backend owns: a host vector, a cl_mem, a device pointer. Opaque to all others.
+class Storage {
+ public:
+  virtual ~Storage() = default;
+};
+
+/// An image in a backend's memory. Made by Backend::make_image, usable with that backend only.
+template <class T>
+struct DeviceImage {
+  Size size;
+  std::unique_ptr<Storage> storage;
+};
+
+/// The volume in a backend's memory. Made by Backend::make_volume, which leaves it empty of
+/// measurements. The origin of its frame is its corner, the axes are those of the start camera.
+struct Volume {
+  MapKind map = MapKind::grid;
+  Int3 resolution;
+  Float3 size_m;
+  std::unique_ptr<Storage> storage;
+};
+
+/// The inputs of the whole ICP loop. Spans of images run from full resolution to the coarsest.
+struct AlignInput {
+  std::vector<const DeviceImage<Float3>*> vertices, normals;  ///< live, per level
+  std::vector<DeviceImage<TrackData>*> rows;                  ///< per level, for track's output
+  const DeviceImage<Float3>* model_vertices = nullptr;
+  const DeviceImage<Float3>* model_normals = nullptr;
+  std::vector<int> iterations;              ///< at most, per level
+  TrackParameters parameters;               ///< T_volume_camera is the start
+  Pose T_volume_camera = Pose::Identity();  ///< the start, in full precision
+  double convergence = 0;  ///< a level ends when the norm of the update is below it
+  bool keep_rows = false;  ///< the last iteration's rows are wanted (for render_track)
+};
+
+struct AlignResult {
+  Pose T_volume_camera = Pose::Identity();
+  Reduction last;               ///< of the last iteration; all zero when there was none
+  int last_level = 0;           ///< the level that iteration ran on
+  std::vector<int> iterations;  ///< done, per level
+};
+
+/// One programming model's implementation of the kernels.
+///
+/// The public functions check that shapes agree (std::invalid_argument: a programming error),
+/// report to the observer, and call the implementation. Destinations come first and never alias a
+/// source. Kernels may run asynchronously, in order; finish(), read() and what returns a value by
+/// `return` wait.
+class Backend {
+ public:
+  virtual ~Backend() = default;
+
+  virtual std::string_view name() const = 0;
+  /// The device this instance computes on, for people and the record.
+  virtual std::string device() const = 0;
+  /// An honest answer: whether the kernel is implemented for this map.
+  virtual bool supports(Kernel kernel, MapKind map) const = 0;
+  /// True: kernels report their own times through kernel_measured, at finish() at the latest.
+  virtual bool times_itself() const { return false; }
+  virtual void finish() {}
+
+  /// Who is told about kernels from now on; null for nobody. Not owned.
+  void observe(Observer* observer) { observer_ = observer; }
+
+  // Memory. Throws UnavailableError when there is not enough.
+  template <class T>
+  DeviceImage<T> make_image(Size size) {
+    return {size, allocate(size.count() * sizeof(T))};
+  }
+  template <class T>
+  void write(DeviceImage<T>& destination, const Image<T>& source) {
+    check(destination.size == source.size(), "write: sizes differ");
+    upload(*destination.storage, source.data(), source.bytes());
+  }
+  template <class T>
+  void read(Image<T>& destination, const DeviceImage<T>& source) {
+    destination.resize(source.size);
+    download(destination.data(), *source.storage, destination.bytes());
+  }
+  Volume make_volume(MapKind map, Int3 resolution, Float3 size_m);
+  /// Every voxel, x fastest, whatever the map.
+  virtual void read_volume(std::vector<Voxel>& destination, const Volume& source) = 0;
+  virtual void write_volume(Volume& destination, const std::vector<Voxel>& source) = 0;
+  /// Memory that the volume takes now.
+  virtual std::size_t volume_bytes(const Volume& volume) const = 0;
+
+  // The kernels; what each computes stands with its per-element function in src/kernels/.
+  /// The 2 radius + 1 spatial weights of the bilateral filter, as an image of one row.
+  void generate_gaussian(DeviceImage<float>& weights, float sigma_px);
+  void init_volume(Volume& volume);
+  /// Sub-samples by the ratio of the sizes, which must be integral and equal in x and y.
+  void mm2meters(DeviceImage<float>& depth_m, const DeviceImage<std::uint16_t>& depth,
+                 float units_per_m);
+  void bilateral_filter(DeviceImage<float>& filtered_m, const DeviceImage<float>& depth_m,
+                        const DeviceImage<float>& gaussian, float range_sigma_m);
+  /// The destination has half the size, rounded down.
+  void half_sample(DeviceImage<float>& half_m, const DeviceImage<float>& depth_m, float range_m);
+  void depth2vertex(DeviceImage<Float3>& vertices, const DeviceImage<float>& depth_m,
+                    Intrinsics camera);
+  void vertex2normal(DeviceImage<Float3>& normals, const DeviceImage<Float3>& vertices);
+  void track(DeviceImage<TrackData>& rows, const DeviceImage<Float3>& vertices,
+             const DeviceImage<Float3>& normals, const DeviceImage<Float3>& model_vertices,
+             const DeviceImage<Float3>& model_normals, const TrackParameters& parameters);
+  Reduction reduce(const DeviceImage<TrackData>& rows);
+  /// The least-squares motion by SVD; singular values below 1 / condition of the largest count as
+  /// zero.
+  Twist solve(const Reduction& reduction, double condition);
+  void integrate(Volume& volume, const DeviceImage<float>& depth_m,
+                 const IntegrateParameters& parameters);
+  void raycast(DeviceImage<Float3>& vertices, DeviceImage<Float3>& normals, const Volume& volume,
+               const RaycastParameters& parameters);
+  void render_depth(DeviceImage<Rgba8>& image, const DeviceImage<float>& depth_m, float near_m,
+                    float far_m);
+  void render_track(DeviceImage<Rgba8>& image, const DeviceImage<TrackData>& rows);
+  void render_volume(DeviceImage<Rgba8>& image, const Volume& volume, const RaycastParameters& view,
+                     const ShadeParameters& shading);
+  /// The ICP loop, coarse to fine. Unless a backend does better: track, reduce and solve.
+  AlignResult align(const AlignInput& input, double condition);
+
+ protected:
+  virtual std::unique_ptr<Storage> allocate(std::size_t bytes) = 0;
+  virtual void upload(Storage& destination, const void* source, std::size_t bytes) = 0;
+  virtual void download(void* destination, const Storage& source, std::size_t bytes) = 0;
+  virtual std::unique_ptr<Storage> allocate_volume(MapKind map, Int3 resolution, Float3 size_m) = 0;
+
+  virtual void do_generate_gaussian(DeviceImage<float>& weights, float sigma_px) = 0;
+  virtual void do_init_volume(Volume& volume) = 0;
+  virtual void do_mm2meters(DeviceImage<float>& depth_m, const DeviceImage<std::uint16_t>& depth,
+                            float units_per_m) = 0;
+  virtual void do_bilateral_filter(DeviceImage<float>& filtered_m,
+                                   const DeviceImage<float>& depth_m,
+                                   const DeviceImage<float>& gaussian, float range_sigma_m) = 0;
+  virtual void do_half_sample(DeviceImage<float>& half_m, const DeviceImage<float>& depth_m,
+                              float range_m) = 0;
+  virtual void do_depth2vertex(DeviceImage<Float3>& vertices, const DeviceImage<float>& depth_m,
+                               Intrinsics camera) = 0;
+  virtual void do_vertex2normal(DeviceImage<Float3>& normals,
+                                const DeviceImage<Float3>& vertices) = 0;
+  virtual void do_track(DeviceImage<TrackData>& rows, const DeviceImage<Float3>& vertices,
+                        const DeviceImage<Float3>& normals,
+                        const DeviceImage<Float3>& model_vertices,
+                        const DeviceImage<Float3>& model_normals,
+                        const TrackParameters& parameters) = 0;
+  virtual Reduction do_reduce(const DeviceImage<TrackData>& rows) = 0;
+  virtual void do_integrate(Volume& volume, const DeviceImage<float>& depth_m,
+                            const IntegrateParameters& parameters) = 0;
+  virtual void do_raycast(DeviceImage<Float3>& vertices, DeviceImage<Float3>& normals,
+                          const Volume& volume, const RaycastParameters& parameters) = 0;
+  virtual void do_render_depth(DeviceImage<Rgba8>& image, const DeviceImage<float>& depth_m,
+                               float near_m, float far_m) = 0;
+  virtual void do_render_track(DeviceImage<Rgba8>& image, const DeviceImage<TrackData>& rows) = 0;
+  virtual void do_render_volume(DeviceImage<Rgba8>& image, const Volume& volume,
+                                const RaycastParameters& view, const ShadeParameters& shading) = 0;
+  /// The plain loop over track, reduce and solve; reports those, not `align`.
+  virtual AlignResult do_align(const AlignInput& input, double condition);
+  /// Whether do_align is the backend's own, and is to be reported as `align`.
+  virtual bool fuses_align() const { return false; }
+
+  static void check(bool condition, const char* message);
+  Observer* observer() const { return observer_; }
+
+ private:
+  Observer* observer_ = nullptr;
+};
+
+}  // namespace slambench

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "backends/backend.h"
+
+namespace slambench {
+
+/// Whether something can be used here, and if not, why and what would help.
+struct Availability {
+  bool available = true;
+  std::string reason;
+};
+
+/// What a user chose about the backend.
+struct BackendOptions {
+  std::string device;  ///< index or a part of the name; empty: the first
+  int threads = 0;     ///< of a host backend; 0: all
+};
+
+/// One line of the table of backends.
+struct BackendEntry {
+  std::string_view name;
+  std::string_view sentence;
+  Availability (*availability)();
+  std::vector<std::string> (*devices)();
+  std::unique_ptr<Backend> (*create)(const BackendOptions&);
+};
+
+/// Every backend this project has, slowest first, whether built in or not: what is not says so.
+std::span<const BackendEntry> backend_table();
+
+/// Throws UsageError for an unknown name (and lists the known), UnavailableError with the reason
+/// for one that cannot be used here.
+std::unique_ptr<Backend> create_backend(std::string_view name, const BackendOptions& options);
+
+}  // namespace slambench

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace slambench {
+
+/// Where a parameter's value lives and what type it has.
+using ParameterPointer =
+    std::variant<bool*, int*, double*, std::string*, std::array<int, 3>*, std::array<double, 3>*,
+                 std::vector<int>*, std::optional<double>*, std::optional<std::array<double, 4>>*>;
+
+/// A described, live parameter. Structs of parameters describe themselves as a ParameterList;
+/// the command line, the configuration file, the help text, the record and a search space are all
+/// derived from that list, so a parameter is declared in one place.
+struct Parameter {
+  std::string_view name;  ///< kebab-case: the long option and the key in a TOML file
+  char flag = 0;          ///< the short option, 0 for none
+  std::string_view unit;  ///< "m", "px", "s", "" for a pure number
+  ParameterPointer value;
+  double min = 0;  ///< inclusive; holds for every component; ignored for bool and string
+  double max = 0;
+  std::string_view sentence;  ///< what it does, for people
+  /// Allowed words of a string parameter; empty: any.
+  std::vector<std::string_view> choices = {};
+};
+
+/// The parameters of one struct, under the name of their TOML table.
+struct ParameterList {
+  std::string_view group;
+  std::vector<Parameter> parameters;
+};
+
+/// The value as it would be written on the command line ("256,256,256", "0.1", "true"); an unset
+/// optional is "". Numbers round-trip.
+std::string to_text(const Parameter& parameter);
+
+/// Sets the value from command-line text. One number is enough for a triple: it is repeated.
+/// Throws UsageError naming parameter, text, and what was expected (type, range, words).
+void set_from_text(const Parameter& parameter, std::string_view text);
+
+/// Throws UsageError when the value lies outside its range or words, or is not finite.
+void check(const Parameter& parameter);
+
+/// "integer in [1, 8]", "3 numbers in [0, 1]", "one of grid, bricks": for help and errors.
+std::string expectation(const Parameter& parameter);
+
+/// The parameter of that name in any of the lists; nullptr when there is none.
+const Parameter* find(const std::vector<ParameterList>& lists, std::string_view name);
+
+}  // namespace slambench

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/frame.h"
+#include "core/intrinsics.h"
+#include "core/parameter.h"
+#include "core/trajectory.h"
+
+namespace slambench {
+
+/// What a user can say about any source.
+struct SourceParameters {
+  std::optional<std::array<double, 4>> camera;  ///< overrides the source's fx,fy,cx,cy
+  std::optional<double> depth_scale;            ///< overrides the depth units per metre
+  std::string ground_truth;                     ///< file that overrides the source's own
+  bool noise = false;                           ///< living-room only
+  int noise_seed = 0;
+
+  ParameterList describe();
+};
+
+/// What is known of a sequence before a frame is read.
+struct SequenceInfo {
+  std::string name;    ///< short, for people and folder names: "living-room/2", "kt3_400"
+  std::string layout;  ///< "icl-nuim", "icl-nuim-tum", "tum-rgbd", "slambench-raw", "living-room"
+  std::string path;    ///< as opened; empty for built-in sequences
+  int frame_count = 0;
+  Size depth_size;
+  Intrinsics camera;  ///< y-down, at depth_size; after overrides
+  float units_per_m = 1000;
+  bool has_color = false;
+  double fps = 30;  ///< nominal rate, from the time stamps where there are any
+
+  /// The sequence's own axes: `own_from_camera` maps the y-down camera axes used here to those of
+  /// its ground truth (diag(1,-1,1) for ICL-NUIM, identity else). A pose T here is
+  /// own_from_camera * T * own_from_camera^-1 there.
+  Eigen::Matrix3d own_from_camera = Eigen::Matrix3d::Identity();
+  std::string axes;         ///< in words, for people
+  Trajectory ground_truth;  ///< in the sequence's own axes and time stamps; may be empty
+  std::string ground_truth_file;
+
+  /// Settings that suit this sequence (parameter name, value), weaker than any the user makes.
+  std::vector<std::pair<std::string, std::string>> suggested;
+  std::vector<std::string> notes;  ///< what the reader had to assume or skip, for people
+};
+
+/// A recorded or rendered RGB-D sequence with random access.
+class Source {
+ public:
+  virtual ~Source() = default;
+  virtual const SequenceInfo& info() const = 0;
+  /// Reads frame `index`; the frame's buffers are reused. Throws InputError naming the file.
+  virtual void read(int index, Frame& frame) = 0;
+};
+
+/// A layout that can be read, for detection and listing.
+struct SourceEntry {
+  std::string_view layout;
+  std::string_view sentence;
+  /// Whether `sequence` (a path, or a built-in name) looks like this layout.
+  bool (*matches)(const std::string& sequence);
+  std::unique_ptr<Source> (*open)(const std::string& sequence, const SourceParameters&);
+};
+
+/// In the order of detection.
+const std::vector<SourceEntry>& source_table();
+
+/// Opens a sequence, whatever its layout. Throws InputError that says what was looked for when
+/// nothing matches, UnavailableError for a layout that was not built in.
+std::unique_ptr<Source> open_source(const std::string& sequence, const SourceParameters&);
+
+}  // namespace slambench

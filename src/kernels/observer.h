@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include "kernels/kernel.h"
+
+namespace slambench {
+
+/// Is told what runs when. The pipeline and the backends have no clock of their own: whoever
+/// measures implements this.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  virtual void stage_begin(Stage stage) = 0;
+  virtual void stage_end(Stage stage) = 0;
+  /// Around each call of a kernel by a backend that computes before it returns.
+  virtual void kernel_begin(Kernel kernel) = 0;
+  virtual void kernel_end(Kernel kernel) = 0;
+  /// From a backend with clocks on its device, once the time of an earlier call is known.
+  virtual void kernel_measured(Kernel kernel, double seconds) = 0;
+};
+
+/// Reports a stage for as long as it lives. A null observer is told nothing.
+class StageScope {
+ public:
+  StageScope(Observer* observer, Stage stage) : observer_(observer), stage_(stage) {
+    if (observer_ != nullptr) observer_->stage_begin(stage_);
+  }
+  ~StageScope() {
+    if (observer_ != nullptr) observer_->stage_end(stage_);
+  }
+  StageScope(const StageScope&) = delete;
+  StageScope& operator=(const StageScope&) = delete;
+
+ private:
+  Observer* observer_;
+  Stage stage_;
+};
+
+/// Reports a kernel for as long as it lives. A null observer is told nothing.
+class KernelScope {
+ public:
+  KernelScope(Observer* observer, Kernel kernel) : observer_(observer), kernel_(kernel) {
+    if (observer_ != nullptr) observer_->kernel_begin(kernel_);
+  }
+  ~KernelScope() {
+    if (observer_ != nullptr) observer_->kernel_end(kernel_);
+  }
+  KernelScope(const KernelScope&) = delete;
+  KernelScope& operator=(const KernelScope&) = delete;
+
+ private:
+  Observer* observer_;
+  Kernel kernel_;
+};
+
+}  // namespace slambench

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <array>
+
+#include "kernels/observer.h"
+#include "meters/clock.h"
+
+namespace slambench {
+
+/// Seconds spent in one frame, and how often each kernel was called.
+struct FrameTimes {
+  std::array<double, stage_count> stage_s{};
+  std::array<double, kernel_count> kernel_s{};
+  std::array<int, kernel_count> kernel_calls{};
+
+  double stage(Stage s) const { return stage_s[static_cast<std::size_t>(s)]; }
+  /// preprocess + track + integrate + raycast, as SLAMBench defines it.
+  double computation_s() const;
+  /// acquire + computation + render.
+  double total_s() const;
+};
+
+/// Adds up what happens between two calls of take(), by the given clock.
+class FrameTimer final : public Observer {
+ public:
+  explicit FrameTimer(const Clock& clock) : clock_(clock) {}
+
+  void stage_begin(Stage stage) override;
+  void stage_end(Stage stage) override;
+  void kernel_begin(Kernel kernel) override;
+  void kernel_end(Kernel kernel) override;
+  void kernel_measured(Kernel kernel, double seconds) override;
+
+  /// The times since the last call; starts anew.
+  FrameTimes take();
+
+ private:
+  const Clock& clock_;
+  FrameTimes times_;
+  double stage_begin_s_ = 0, kernel_begin_s_ = 0;
+};
+
+}  // namespace slambench

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/parameter.h"
+#include "core/statistics.h"
+#include "core/trajectory.h"
+#include "meters/frame_timer.h"
+
+namespace slambench {
+
+/// A parameter as it was used, and who set it.
+struct UsedParameter {
+  std::string group, name, unit, value;
+  std::string set_by;  ///< "default", "sequence", "preset slambench1", "file PATH", "command line"
+};
+
+/// One processed or dropped frame.
+struct FrameRecord {
+  int index = 0;
+  double time_s = 0;     ///< the sequence's time stamp
+  bool dropped = false;  ///< real-time mode: never processed; all below is empty then
+  bool tracked = false;
+  bool integrated = false;
+  Pose T_start_camera = Pose::Identity();  ///< estimate in y-down axes, start camera = identity
+  std::vector<int> iterations;
+  std::size_t inliers = 0;
+  double inlier_fraction = 0, residual_m = 0;
+  std::optional<double> error_first_pose_m;  ///< against ground truth, where a pose has the stamp
+  std::optional<double> error_se3_m;
+  FrameTimes times;
+};
+
+/// Where and from what a record was made.
+struct Provenance {
+  std::string version, commit;  ///< of this program; commit ends in "-dirty" when it was
+  std::string compiler, flags, build_type;
+  std::string cpu, os, host_memory, backend, device, driver;
+  int cores = 0;
+  std::string command;     ///< the command line as given
+  std::string started_at;  ///< UTC, ISO 8601
+};
+
+/// What was judged, against what. Absent parts have a reason in Record::absent.
+struct TrajectoryFigures {
+  std::string association;
+  double limit_s = 0;
+  std::size_t estimate_poses = 0, ground_truth_poses = 0, matched = 0;
+  std::map<std::string, Statistics> ate_m;  ///< by alignment: "none", "first_pose", "se3", "sim3"
+  Statistics rpe_translation_m, rpe_rotation_deg;
+  double rpe_delta_s = 1;
+};
+
+/// Everything that happened in one run: plain data. Writers and reports only read it.
+struct Record {
+  static constexpr int schema_version = 1;
+
+  Provenance provenance;
+  std::vector<UsedParameter> parameters;
+
+  // The sequence.
+  std::string sequence, layout, path, ground_truth_file, axes;
+  int sequence_frames = 0;
+  Size input_size, computation_size;
+  Intrinsics camera;
+  float units_per_m = 0;
+  Eigen::Matrix3d own_from_camera = Eigen::Matrix3d::Identity();
+  std::string input_hash;  ///< XXH3-128 over index and depth of every processed frame, in order
+
+  // What happened.
+  std::vector<FrameRecord> frames;
+  FrameTimes init;        ///< of start-up
+  double wall_s = 0;      ///< of the frame loop
+  int warmup_frames = 0;  ///< first processed frames left out of the time statistics
+  std::size_t map_bytes = 0;
+  bool complete = true;  ///< false: interrupted
+  std::string incomplete_reason;
+
+  // How good it was.
+  std::optional<TrajectoryFigures> over_processed;  ///< poses of processed frames
+  std::optional<TrajectoryFigures> over_all;        ///< dropped frames hold the last pose
+  std::optional<Statistics> slambench1_ate_m;       ///< the published convention, two frames late
+  bool valid = true;
+  std::vector<std::string> invalid_reasons;
+  std::map<std::string, std::string> absent;  ///< figure -> why it could not be measured
+};
+
+/// The estimate in the sequence's own axes and stamps, dropped and failed frames left out.
+Trajectory estimated_trajectory(const Record& record);
+
+}  // namespace slambench

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <optional>
+
+#include "backends/backend.h"
+#include "core/intrinsics.h"
+#include "core/parameter.h"
+#include "slam/system.h"
+
+namespace slambench {
+
+/// Everything a user can turn in KinectFusion; the defaults are SLAMBench 1's.
+struct KinectFusionParameters {
+  std::string map = "grid";
+  int compute_size_ratio = 1;
+  std::array<int, 3> volume_resolution = {256, 256, 256};
+  std::array<double, 3> volume_size_m = {2, 2, 2};
+  std::array<double, 3> init_pose = {0.5, 0.5, 0.0};
+  double mu_m = 0.1;
+  int tracking_rate = 1;
+  int integration_rate = 2;
+  int rendering_rate = 4;
+  std::vector<int> pyramid_levels = {10, 5, 4};
+  double icp_threshold = 1e-5;
+  double icp_distance_threshold_m = 0.1;
+  double icp_normal_threshold = 0.8;
+  double tracked_fraction = 0.15;
+  double tracked_residual_m = 0.02;
+  double solve_condition = 1e6;
+  int bootstrap_frames = 4;
+  int bilateral_radius_px = 2;
+  double bilateral_sigma_px = 4;
+  double bilateral_range_sigma_m = 0.1;
+  double half_sample_range_m = 0.3;
+  double near_m = 0.4;
+  double far_m = 4.0;
+  double max_weight = 100;
+  double integrate_min_depth_m = 0.0001;
+  double raycast_large_step = 0.75;
+  double raycast_small_step = 1.0;
+  double raycast_slow_below = 0.8;
+  double render_far_factor = 2.0;
+  std::array<double, 3> light_m = {1, 1, -1};
+  double ambient = 0.1;
+
+  ParameterList describe();
+};
+
+/// KinectFusion (Newcombe et al., ISMAR 2011) as SLAMBench (Nardi et al., ICRA 2015) cuts it into
+/// kernels, over any backend.
+class KinectFusion final : public System {
+ public:
+  /// `camera` and `input` are those of the full-resolution depth image, whose values divided by
+  /// `units_per_m` are metres. Throws UsageError when the parameters do not fit together or the
+  /// input, UnavailableError when the backend lacks a kernel or memory.
+  KinectFusion(Backend& backend, const KinectFusionParameters& parameters, Size input,
+               Intrinsics camera, float units_per_m, Observer* observer);
+
+  FrameResult process(const Frame& frame) override;
+  void render(const Frame& frame) override;
+  Pictures pictures() override;
+  std::size_t map_bytes() const override;
+  void dump_volume(const std::string& path) override;
+
+ private:
+  void preprocess(const Frame& frame);
+  void track(const Frame& frame, FrameResult* result);
+  void integrate(const Frame& frame, FrameResult* result);
+  void raycast(const Frame& frame);
+  RaycastParameters view(double far_m) const;
+
+  Backend& backend_;
+  const KinectFusionParameters p_;
+  const Intrinsics camera_;  ///< of the computation size
+  const float units_per_m_;
+  Observer* const observer_;
+
+  DeviceImage<std::uint16_t> raw_depth_;
+  DeviceImage<float> gaussian_, depth_m_;
+  std::vector<DeviceImage<float>> filtered_m_;           ///< per level, finest first
+  std::vector<DeviceImage<Float3>> vertices_, normals_;  ///< per level
+  std::vector<DeviceImage<TrackData>> rows_;             ///< per level
+  DeviceImage<Float3> model_vertices_, model_normals_;
+  DeviceImage<Rgba8> depth_picture_, track_picture_, volume_picture_;
+  bool volume_picture_is_new_ = false;
+  Volume volume_;
+
+  Pose T_volume_start_ = Pose::Identity();
+  Pose T_volume_camera_ = Pose::Identity();
+  std::optional<Pose> T_volume_model_;  ///< where the model was raycast from; none yet: no model
+};
+
+}  // namespace slambench
