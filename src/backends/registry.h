@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "backends/backend.h"
+#include "core/parameter.h"
 
 namespace slambench {
 
@@ -20,8 +21,11 @@ struct Availability {
 
 /// What a user chose about the backend.
 struct BackendOptions {
-  std::string device;  ///< index or a part of the name; empty: the first
-  int threads = 0;     ///< of a host backend; 0: all
+  std::string backend = "serial";  ///< a name in the table
+  std::string device;              ///< index or a part of the name; empty: the first
+  int threads = 0;                 ///< of a host backend; 0: all
+
+  ParameterList describe();
 };
 
 /// One line of the table of backends.

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include "backends/registry.h"
+
+namespace slambench {
+
+ParameterList BackendOptions::describe() {
+  return {
+      "backend",
+      {
+          {"backend", 0, "", &backend, 0, 0, "which implementation of the kernels runs"},
+          {"device", 0, "", &device, 0, 0, "index or part of the name of the device it runs on"},
+          {"threads", 0, "", &threads, 0, 4096, "threads of a host backend; 0: one per core"},
+      },
+  };
+}
+
+}  // namespace slambench
