@@ -63,6 +63,13 @@ struct AlignResult {
   std::vector<int> iterations;  ///< done, per level
 };
 
+/// In the precision of the kernels.
+Rigid3f to_rigid3f(const Pose& pose);
+/// exp(twist) * pose: a step of the ICP.
+Pose moved(const Pose& pose, const Twist& twist);
+/// Euclidean norm over all six components.
+double norm(const Twist& twist);
+
 /// One programming model's implementation of the kernels.
 ///
 /// The public functions check that shapes agree (std::invalid_argument: a programming error),
@@ -179,10 +186,14 @@ class Backend {
   /// Whether do_align is the backend's own, and is to be reported as `align`.
   virtual bool fuses_align() const { return false; }
 
+  /// Throws std::invalid_argument unless the condition holds.
   static void check(bool condition, const char* message);
   Observer* observer() const { return observer_; }
 
  private:
+  /// Who times a launch from outside: nobody, when the device does it itself.
+  Observer* launch_observer() const { return times_itself() ? nullptr : observer_; }
+
   Observer* observer_ = nullptr;
 };
 

@@ -156,6 +156,32 @@ SLAMBENCH_HD inline TrackData track_point(Float3 vertex, Float3 normal,
   return row;
 }
 
+/// Adds one pixel's row to the sums.
+SLAMBENCH_HD inline void accumulate(const TrackData& row, Reduction* sum) {
+  switch (row.outcome) {
+    case TrackOutcome::ok:
+      break;
+    case TrackOutcome::too_far:
+      ++sum->too_far;
+      return;
+    case TrackOutcome::wrong_normal:
+      ++sum->wrong_normal;
+      return;
+    default:
+      ++sum->others;
+      return;
+  }
+  ++sum->inliers;
+  sum->squared_error += static_cast<double>(row.error * row.error);
+  double* entry = sum->jt_j;
+  for (int i = 0; i < 6; ++i) {
+    sum->jt_error[i] += static_cast<double>(row.error * row.jacobian[i]);
+    for (int j = i; j < 6; ++j) {
+      *entry++ += static_cast<double>(row.jacobian[i] * row.jacobian[j]);
+    }
+  }
+}
+
 /// White nearer than near_m (and where there is no depth), black beyond far_m, a ramp of hues
 /// from red over green to blue between.
 SLAMBENCH_HD inline Rgba8 depth_color(float depth_m, float near_m, float far_m) {

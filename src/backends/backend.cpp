@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include "backends/backend.h"
+
+#include <Eigen/SVD>
+#include <stdexcept>
+
+#include "core/se3.h"
+
+namespace slambench {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+Float3 to_float3(const Eigen::Vector3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+Matrix6 normal_matrix(const Reduction& reduction) {
+  Matrix6 m;
+  const double* next = reduction.jt_j;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column) {
+      m(row, column) = *next;
+      m(column, row) = *next++;
+    }
+  }
+  return m;
+}
+
+}  // namespace
+
+std::string_view name(MapKind map) {
+  switch (map) {
+    case MapKind::grid:
+      return "grid";
+  }
+  return "?";
+}
+
+Rigid3f to_rigid3f(const Pose& pose) {
+  const Eigen::Matrix3d r = pose.linear();
+  return {to_float3(r.row(0)), to_float3(r.row(1)), to_float3(r.row(2)),
+          to_float3(pose.translation())};
+}
+
+Pose moved(const Pose& pose, const Twist& twist) {
+  return se3_exp(Eigen::Map<const Vector6>(twist.v)) * pose;
+}
+
+double norm(const Twist& twist) { return Eigen::Map<const Vector6>(twist.v).norm(); }
+
+void Backend::check(bool condition, const char* message) {
+  if (!condition) throw std::invalid_argument(message);
+}
+
+Volume Backend::make_volume(MapKind map, Int3 resolution, Float3 size_m) {
+  check(resolution.x > 0 && resolution.y > 0 && resolution.z > 0, "make_volume: no voxels");
+  check(size_m.x > 0 && size_m.y > 0 && size_m.z > 0, "make_volume: no extent");
+  Volume volume{map, resolution, size_m, allocate_volume(map, resolution, size_m)};
+  init_volume(volume);
+  return volume;
+}
+
+void Backend::generate_gaussian(DeviceImage<float>& weights, float sigma_px) {
+  check(weights.size.height == 1 && weights.size.width % 2 == 1,
+        "generate_gaussian: not one row of odd length");
+  const KernelScope scope(launch_observer(), Kernel::generate_gaussian);
+  do_generate_gaussian(weights, sigma_px);
+}
+
+void Backend::init_volume(Volume& volume) {
+  const KernelScope scope(launch_observer(), Kernel::init_volume);
+  do_init_volume(volume);
+}
+
+void Backend::mm2meters(DeviceImage<float>& depth_m, const DeviceImage<std::uint16_t>& depth,
+                        float units_per_m) {
+  check(!depth_m.size.empty(), "mm2meters: empty image");
+  const int ratio = depth.size.width / depth_m.size.width;
+  check(depth_m.size.width * ratio == depth.size.width &&
+            depth_m.size.height * ratio == depth.size.height,
+        "mm2meters: ratio not integral or not equal");
+  const KernelScope scope(launch_observer(), Kernel::mm2meters);
+  do_mm2meters(depth_m, depth, units_per_m);
+}
+
+void Backend::bilateral_filter(DeviceImage<float>& filtered_m, const DeviceImage<float>& depth_m,
+                               const DeviceImage<float>& gaussian, float range_sigma_m) {
+  check(filtered_m.size == depth_m.size, "bilateral_filter: sizes differ");
+  const KernelScope scope(launch_observer(), Kernel::bilateral_filter);
+  do_bilateral_filter(filtered_m, depth_m, gaussian, range_sigma_m);
+}
+
+void Backend::half_sample(DeviceImage<float>& half_m, const DeviceImage<float>& depth_m,
+                          float range_m) {
+  check(
+      half_m.size.width == depth_m.size.width / 2 && half_m.size.height == depth_m.size.height / 2,
+      "half_sample: not half the size");
+  const KernelScope scope(launch_observer(), Kernel::half_sample);
+  do_half_sample(half_m, depth_m, range_m);
+}
+
+void Backend::depth2vertex(DeviceImage<Float3>& vertices, const DeviceImage<float>& depth_m,
+                           Intrinsics camera) {
+  check(vertices.size == depth_m.size, "depth2vertex: sizes differ");
+  const KernelScope scope(launch_observer(), Kernel::depth2vertex);
+  do_depth2vertex(vertices, depth_m, camera);
+}
+
+void Backend::vertex2normal(DeviceImage<Float3>& normals, const DeviceImage<Float3>& vertices) {
+  check(normals.size == vertices.size, "vertex2normal: sizes differ");
+  const KernelScope scope(launch_observer(), Kernel::vertex2normal);
+  do_vertex2normal(normals, vertices);
+}
+
+void Backend::track(DeviceImage<TrackData>& rows, const DeviceImage<Float3>& vertices,
+                    const DeviceImage<Float3>& normals, const DeviceImage<Float3>& model_vertices,
+                    const DeviceImage<Float3>& model_normals, const TrackParameters& parameters) {
+  check(rows.size == vertices.size && normals.size == vertices.size, "track: live sizes differ");
+  check(model_vertices.size == model_normals.size, "track: model sizes differ");
+  const KernelScope scope(launch_observer(), Kernel::track);
+  do_track(rows, vertices, normals, model_vertices, model_normals, parameters);
+}
+
+Reduction Backend::reduce(const DeviceImage<TrackData>& rows) {
+  const KernelScope scope(launch_observer(), Kernel::reduce);
+  return do_reduce(rows);
+}
+
+Twist Backend::solve(const Reduction& reduction, double condition) {
+  const KernelScope scope(observer_, Kernel::solve);
+  const Matrix6 jt_j = normal_matrix(reduction);
+  const Vector6 jt_error = Eigen::Map<const Vector6>(reduction.jt_error);
+  Twist twist;
+  if (!jt_j.allFinite() || !jt_error.allFinite()) return twist;
+  Eigen::JacobiSVD<Matrix6> svd(jt_j, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  svd.setThreshold(1 / condition);
+  Eigen::Map<Vector6>(twist.v) = svd.solve(jt_error);
+  return twist;
+}
+
+AlignResult Backend::align(const AlignInput& input, double condition) {
+  check(input.model_vertices != nullptr && input.model_normals != nullptr, "align: no model");
+  check(!input.iterations.empty() && input.vertices.size() == input.iterations.size() &&
+            input.normals.size() == input.iterations.size() &&
+            input.rows.size() == input.iterations.size(),
+        "align: numbers of levels differ");
+  const KernelScope scope(fuses_align() ? launch_observer() : nullptr, Kernel::align);
+  return do_align(input, condition);
+}
+
+AlignResult Backend::do_align(const AlignInput& input, double condition) {
+  AlignResult result;
+  result.T_volume_camera = input.T_volume_camera;
+  result.iterations.assign(input.iterations.size(), 0);
+  TrackParameters parameters = input.parameters;
+  for (std::size_t level = input.iterations.size(); level-- > 0;) {
+    for (int i = 0; i < input.iterations[level]; ++i) {
+      parameters.T_volume_camera = to_rigid3f(result.T_volume_camera);
+      track(*input.rows[level], *input.vertices[level], *input.normals[level],
+            *input.model_vertices, *input.model_normals, parameters);
+      result.last = reduce(*input.rows[level]);
+      result.last_level = static_cast<int>(level);
+      ++result.iterations[level];
+      const Twist twist = solve(result.last, condition);
+      result.T_volume_camera = moved(result.T_volume_camera, twist);
+      if (norm(twist) < input.convergence) break;
+    }
+  }
+  return result;
+}
+
+void Backend::integrate(Volume& volume, const DeviceImage<float>& depth_m,
+                        const IntegrateParameters& parameters) {
+  const KernelScope scope(launch_observer(), Kernel::integrate);
+  do_integrate(volume, depth_m, parameters);
+}
+
+void Backend::raycast(DeviceImage<Float3>& vertices, DeviceImage<Float3>& normals,
+                      const Volume& volume, const RaycastParameters& parameters) {
+  check(vertices.size == normals.size, "raycast: sizes differ");
+  const KernelScope scope(launch_observer(), Kernel::raycast);
+  do_raycast(vertices, normals, volume, parameters);
+}
+
+void Backend::render_depth(DeviceImage<Rgba8>& image, const DeviceImage<float>& depth_m,
+                           float near_m, float far_m) {
+  check(image.size == depth_m.size, "render_depth: sizes differ");
+  const KernelScope scope(launch_observer(), Kernel::render_depth);
+  do_render_depth(image, depth_m, near_m, far_m);
+}
+
+void Backend::render_track(DeviceImage<Rgba8>& image, const DeviceImage<TrackData>& rows) {
+  check(image.size == rows.size, "render_track: sizes differ");
+  const KernelScope scope(launch_observer(), Kernel::render_track);
+  do_render_track(image, rows);
+}
+
+void Backend::render_volume(DeviceImage<Rgba8>& image, const Volume& volume,
+                            const RaycastParameters& view, const ShadeParameters& shading) {
+  const KernelScope scope(launch_observer(), Kernel::render_volume);
+  do_render_volume(image, volume, view, shading);
+}
+
+}  // namespace slambench

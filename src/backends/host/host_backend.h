@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <cstddef>
+
+#include "backends/backend.h"
+#include "kernels/volume_maths.h"
+
+namespace slambench {
+
+/// Zeroed memory of the host, aligned for any SIMD type.
+class HostStorage final : public Storage {
+ public:
+  /// Throws UnavailableError when the machine has less than that available.
+  explicit HostStorage(std::size_t bytes);
+  ~HostStorage() override;
+  HostStorage(const HostStorage&) = delete;
+  HostStorage& operator=(const HostStorage&) = delete;
+
+  void* data() const { return data_; }
+  std::size_t bytes() const { return bytes_; }
+
+ private:
+  void* data_;
+  std::size_t bytes_;
+};
+
+/// What backends that compute on the host share: plain memory for images and for the flat grid, so
+/// that their kernels can stand in for each other.
+class HostBackend : public Backend {
+ public:
+  std::string device() const override;
+  void read_volume(std::vector<Voxel>& destination, const Volume& source) override;
+  void write_volume(Volume& destination, const std::vector<Voxel>& source) override;
+  std::size_t volume_bytes(const Volume& volume) const override;
+
+ protected:
+  std::unique_ptr<Storage> allocate(std::size_t bytes) override;
+  void upload(Storage& destination, const void* source, std::size_t bytes) override;
+  void download(void* destination, const Storage& source, std::size_t bytes) override;
+  std::unique_ptr<Storage> allocate_volume(MapKind map, Int3 resolution, Float3 size_m) override;
+
+  template <class T>
+  static T* pixels(DeviceImage<T>& image) {
+    return static_cast<T*>(static_cast<HostStorage&>(*image.storage).data());
+  }
+  template <class T>
+  static const T* pixels(const DeviceImage<T>& image) {
+    return static_cast<const T*>(static_cast<const HostStorage&>(*image.storage).data());
+  }
+  static Voxel* voxels(Volume& volume) {
+    return static_cast<Voxel*>(static_cast<HostStorage&>(*volume.storage).data());
+  }
+  static GridView grid(const Volume& volume) {
+    return {static_cast<const Voxel*>(static_cast<const HostStorage&>(*volume.storage).data()),
+            volume.resolution, volume.size_m};
+  }
+};
+
+}  // namespace slambench

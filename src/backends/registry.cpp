@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include "backends/registry.h"
+
+#include <fmt/format.h>
+
+#include "backends/serial/serial_backend.h"
+#include "core/error.h"
+
+namespace slambench {
+namespace {
+
+constexpr BackendEntry table[] = {
+    {"serial", "plain sequential C++: the reference", [] { return Availability{}; },
+     [] { return std::vector<std::string>{SerialBackend().device()}; },
+     [](const BackendOptions&) -> std::unique_ptr<Backend> {
+       return std::make_unique<SerialBackend>();
+     }},
+};
+
+}  // namespace
+
+std::span<const BackendEntry> backend_table() { return table; }
+
+std::unique_ptr<Backend> create_backend(std::string_view name, const BackendOptions& options) {
+  std::string known;
+  for (const BackendEntry& entry : table) {
+    if (entry.name == name) {
+      const Availability availability = entry.availability();
+      if (!availability.available) {
+        throw UnavailableError(
+            fmt::format("backend {}: unavailable: {}", name, availability.reason));
+      }
+      return entry.create(options);
+    }
+    known += known.empty() ? "" : ", ";
+    known += entry.name;
+  }
+  throw UsageError(fmt::format("--backend: found '{}', expected one of {}", name, known));
+}
+
+}  // namespace slambench
