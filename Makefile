@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: The SLAMBench authors
+#
+# The short way in; everything below is CMake and ctest, which can be used directly as well.
+
+JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+PREFIX ?= /usr/local
+INSTALL ?= yes
+ARGS ?=
+
+.PHONY: help run test asan install build dependencies clean
+.DEFAULT_GOAL := help
+
+help: ## show this
+	@echo "make run        set up, build, and benchmark the built-in sequence"
+	@echo "                (ARGS='tum_fr1_xyz -c 2' runs something else)"
+	@echo "make test       set up, build, and run all tests"
+	@echo "make asan       the tests under AddressSanitizer and UndefinedBehaviourSanitizer"
+	@echo "make install    install to PREFIX ($(PREFIX)); DESTDIR is respected"
+	@echo "make clean      remove build/; results/ stays"
+	@echo
+	@echo "INSTALL=no leaves out the installation of missing Debian packages; JOBS=N limits"
+	@echo "the processes of the build (now $(JOBS))."
+
+dependencies:
+ifneq ($(INSTALL),no)
+	@scripts/install_dependencies
+endif
+
+build: dependencies
+	@cmake --preset release
+	@cmake --build --preset release --parallel $(JOBS)
+
+run: build
+	@build/release/apps/slambench/slambench run $(ARGS)
+
+test: build
+	@ctest --preset release --parallel $(JOBS)
+
+asan: dependencies
+	@cmake --preset asan
+	@cmake --build --preset asan --parallel $(JOBS)
+	@ctest --preset asan --parallel $(JOBS)
+
+# Not after `build`: under sudo, nothing of it shall be written as root.
+install:
+	@test -x build/release/apps/slambench/slambench || \
+	  { echo "make install: build first, with 'make run' or 'make test'" >&2; exit 1; }
+	@cmake --install build/release --prefix $(PREFIX)
+
+clean:
+	@cmake -E rm -rf build
