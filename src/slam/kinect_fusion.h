@@ -59,16 +59,18 @@ class KinectFusion final : public System {
                Intrinsics camera, float units_per_m, Observer* observer);
 
   FrameResult process(const Frame& frame) override;
-  void render(const Frame& frame) override;
+  void render() override;
   Pictures pictures() override;
   std::size_t map_bytes() const override;
   void dump_volume(const std::string& path) override;
 
  private:
   void preprocess(const Frame& frame);
-  void track(const Frame& frame, FrameResult* result);
-  void integrate(const Frame& frame, FrameResult* result);
-  void raycast(const Frame& frame);
+  void track(FrameResult* result);
+  /// Takes the aligned pose over unless too few pixels agree with the model, or too badly.
+  void accept(const AlignResult& aligned, FrameResult* result);
+  void integrate(FrameResult* result);
+  void raycast();
   RaycastParameters view(double far_m) const;
 
   Backend& backend_;
@@ -84,9 +86,9 @@ class KinectFusion final : public System {
   std::vector<DeviceImage<TrackData>> rows_;             ///< per level
   DeviceImage<Float3> model_vertices_, model_normals_;
   DeviceImage<Rgba8> depth_picture_, track_picture_, volume_picture_;
-  bool volume_picture_is_new_ = false;
   Volume volume_;
 
+  int processed_ = 0;  ///< frames so far; rates count these, so that dropped frames do not matter
   Pose T_volume_start_ = Pose::Identity();
   Pose T_volume_camera_ = Pose::Identity();
   std::optional<Pose> T_volume_model_;  ///< where the model was raycast from; none yet: no model

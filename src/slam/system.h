@@ -23,7 +23,7 @@ struct FrameResult {
   double residual_m = 0;                   ///< root mean square of its point-to-plane errors
 };
 
-/// Pictures of the state after a frame; empty ones were not due or do not exist.
+/// The pictures last drawn; empty ones do not exist for this system.
 struct Pictures {
   Image<Rgba8> depth, track, volume;
 };
@@ -35,7 +35,7 @@ class System {
   virtual ~System() = default;
   virtual FrameResult process(const Frame& frame) = 0;
   /// Draws what a user would watch (part of the measured work, as in the paper).
-  virtual void render(const Frame& frame) = 0;
+  virtual void render() = 0;
   /// Copies the last pictures out (not part of the measured work).
   virtual Pictures pictures() = 0;
   /// Memory of the map now.
