@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/image.h"
+#include "core/intrinsics.h"
 #include "core/parameter.h"
 #include "core/statistics.h"
 #include "core/trajectory.h"
@@ -90,7 +92,9 @@ struct Record {
   std::map<std::string, std::string> absent;  ///< figure -> why it could not be measured
 };
 
-/// The estimate in the sequence's own axes and stamps, dropped and failed frames left out.
+/// The estimate in the sequence's own axes and stamps, one pose a processed frame: a frame that was
+/// not tracked has the pose the system held. Left out are dropped frames and poses that are not
+/// finite numbers.
 Trajectory estimated_trajectory(const Record& record);
 
 }  // namespace slambench
