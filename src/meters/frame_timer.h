@@ -22,7 +22,10 @@ struct FrameTimes {
   double total_s() const;
 };
 
-/// Adds up what happens between two calls of take(), by the given clock.
+/// Adds up what happens between two calls of take(), by the given clock. Kernels run within
+/// stages; there is one stage and one kernel at a time. A stage always has the wall time between
+/// its begin and its end, also where the backend measures its kernels itself (kernel_measured):
+/// those times count when they arrive, and need not add up to their stage's.
 class FrameTimer final : public Observer {
  public:
   explicit FrameTimer(const Clock& clock) : clock_(clock) {}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include "meters/frame_timer.h"
+
+namespace slambench {
+
+double FrameTimes::computation_s() const {
+  return stage(Stage::preprocess) + stage(Stage::track) + stage(Stage::integrate) +
+         stage(Stage::raycast);
+}
+
+double FrameTimes::total_s() const {
+  return stage(Stage::acquire) + computation_s() + stage(Stage::render);
+}
+
+void FrameTimer::stage_begin(Stage) { stage_begin_s_ = clock_.now_s(); }
+
+void FrameTimer::stage_end(Stage stage) {
+  times_.stage_s[static_cast<std::size_t>(stage)] += clock_.now_s() - stage_begin_s_;
+}
+
+void FrameTimer::kernel_begin(Kernel) { kernel_begin_s_ = clock_.now_s(); }
+
+void FrameTimer::kernel_end(Kernel kernel) {
+  kernel_measured(kernel, clock_.now_s() - kernel_begin_s_);
+}
+
+void FrameTimer::kernel_measured(Kernel kernel, double seconds) {
+  const auto i = static_cast<std::size_t>(kernel);
+  times_.kernel_s[i] += seconds;
+  ++times_.kernel_calls[i];
+}
+
+FrameTimes FrameTimer::take() {
+  const FrameTimes taken = times_;
+  times_ = {};
+  return taken;
+}
+
+}  // namespace slambench

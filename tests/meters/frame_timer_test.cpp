@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include "meters/frame_timer.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "support/fake_clock.h"
+
+namespace slambench {
+namespace {
+
+double kernel_s(const FrameTimes& times, Kernel kernel) {
+  return times.kernel_s[static_cast<std::size_t>(kernel)];
+}
+
+int calls(const FrameTimes& times, Kernel kernel) {
+  return times.kernel_calls[static_cast<std::size_t>(kernel)];
+}
+
+class FrameTimerTest : public ::testing::Test {
+ protected:
+  void kernel(Kernel which, double seconds) {
+    const KernelScope scope(&timer_, which);
+    clock_.advance(seconds);
+  }
+
+  testing::FakeClock clock_;
+  FrameTimer timer_{clock_};
+};
+
+TEST_F(FrameTimerTest, StagesHoldTheirKernelsAndWhatLiesBetween) {
+  {
+    const StageScope stage(&timer_, Stage::track);
+    clock_.advance(0.5);
+    kernel(Kernel::track, 1);
+    clock_.advance(0.25);
+    kernel(Kernel::reduce, 2);
+  }
+  const FrameTimes times = timer_.take();
+  EXPECT_DOUBLE_EQ(times.stage(Stage::track), 3.75);
+  EXPECT_DOUBLE_EQ(kernel_s(times, Kernel::track), 1);
+  EXPECT_DOUBLE_EQ(kernel_s(times, Kernel::reduce), 2);
+  EXPECT_DOUBLE_EQ(std::accumulate(times.stage_s.begin(), times.stage_s.end(), 0.0), 3.75);
+  EXPECT_DOUBLE_EQ(std::accumulate(times.kernel_s.begin(), times.kernel_s.end(), 0.0), 3);
+}
+
+TEST_F(FrameTimerTest, AddsUpRepeatedCalls) {
+  for (const double seconds : {1.0, 2.0, 4.0}) {
+    const StageScope stage(&timer_, Stage::preprocess);
+    kernel(Kernel::half_sample, seconds);
+  }
+  const FrameTimes times = timer_.take();
+  EXPECT_DOUBLE_EQ(kernel_s(times, Kernel::half_sample), 7);
+  EXPECT_EQ(calls(times, Kernel::half_sample), 3);
+  EXPECT_EQ(calls(times, Kernel::track), 0);
+  EXPECT_DOUBLE_EQ(times.stage(Stage::preprocess), 7);
+}
+
+TEST_F(FrameTimerTest, TakeStartsAnew) {
+  kernel(Kernel::integrate, 1);
+  timer_.take();
+  const FrameTimes times = timer_.take();
+  EXPECT_EQ(kernel_s(times, Kernel::integrate), 0);
+  EXPECT_EQ(calls(times, Kernel::integrate), 0);
+  EXPECT_EQ(times.total_s(), 0);
+}
+
+TEST_F(FrameTimerTest, KernelsMeasuredElsewhereLeaveTheStageItsWallTime) {
+  {
+    const StageScope stage(&timer_, Stage::raycast);
+    clock_.advance(0.001);
+  }
+  timer_.kernel_measured(Kernel::raycast, 5);
+  timer_.kernel_measured(Kernel::raycast, 6);
+  const FrameTimes times = timer_.take();
+  EXPECT_NEAR(times.stage(Stage::raycast), 0.001, 1e-9);
+  EXPECT_DOUBLE_EQ(kernel_s(times, Kernel::raycast), 11);
+  EXPECT_EQ(calls(times, Kernel::raycast), 2);
+}
+
+TEST_F(FrameTimerTest, ComputationAndTotalAreThePapers) {
+  double seconds = 1;
+  for (const Stage stage : {Stage::acquire, Stage::preprocess, Stage::track, Stage::integrate,
+                            Stage::raycast, Stage::render, Stage::init}) {
+    const StageScope scope(&timer_, stage);
+    clock_.advance(seconds);
+    seconds *= 2;
+  }
+  const FrameTimes times = timer_.take();
+  EXPECT_DOUBLE_EQ(times.computation_s(), 2 + 4 + 8 + 16);
+  EXPECT_DOUBLE_EQ(times.total_s(), 1 + 2 + 4 + 8 + 16 + 32);
+}
+
+TEST(SteadyClock, DoesNotGoBackAndSleepsLongEnough) {
+  const Clock& clock = steady_clock();
+  const double before_s = clock.now_s();
+  const double until_s = before_s + 0.02;
+  clock.sleep_until(until_s);
+  EXPECT_GE(clock.now_s(), until_s);
+  clock.sleep_until(before_s);  // long past: returns at once
+  EXPECT_LT(clock.now_s(), before_s + 10);
+}
+
+}  // namespace
+}  // namespace slambench
