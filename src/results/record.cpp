@@ -4,18 +4,21 @@
 
 namespace slambench {
 
+Pose in_own_axes(const Record& record, const Pose& T_start_camera) {
+  Pose own;
+  own.linear() =
+      record.own_from_camera * T_start_camera.linear() * record.own_from_camera.inverse();
+  own.translation() = record.own_from_camera * T_start_camera.translation();
+  own.makeAffine();
+  return own;
+}
+
 Trajectory estimated_trajectory(const Record& record) {
-  const Eigen::Matrix3d camera_from_own = record.own_from_camera.inverse();
   Trajectory trajectory;
   trajectory.reserve(record.frames.size());
   for (const FrameRecord& frame : record.frames) {
-    const Pose& T = frame.T_start_camera;
-    if (frame.dropped || !T.matrix().allFinite()) continue;
-    StampedPose own;
-    own.time_s = frame.time_s;
-    own.T_world_camera.linear() = record.own_from_camera * T.linear() * camera_from_own;
-    own.T_world_camera.translation() = record.own_from_camera * T.translation();
-    trajectory.push_back(own);
+    if (frame.dropped || !frame.T_start_camera.matrix().allFinite()) continue;
+    trajectory.push_back({frame.time_s, in_own_axes(record, frame.T_start_camera)});
   }
   return trajectory;
 }

@@ -42,8 +42,9 @@ struct FrameRecord {
 struct Provenance {
   std::string version, commit;  ///< of this program; commit ends in "-dirty" when it was
   std::string compiler, flags, build_type;
-  std::string cpu, os, host_memory, backend, device, driver;
-  int cores = 0;
+  std::string cpu, os, backend, device, driver;
+  int cores = 0;  ///< logical processors that the process may use
+  std::size_t host_memory_bytes = 0;
   std::string command;     ///< the command line as given
   std::string started_at;  ///< UTC, ISO 8601
 };
@@ -89,8 +90,13 @@ struct Record {
   std::optional<Statistics> slambench1_ate_m;       ///< the published convention, two frames late
   bool valid = true;
   std::vector<std::string> invalid_reasons;
-  std::map<std::string, std::string> absent;  ///< figure -> why it could not be measured
+  /// Why a figure could not be measured, by its place in record.json
+  /// ("accuracy.over_processed", "accuracy.slambench1_ate_m").
+  std::map<std::string, std::string> absent;
 };
+
+/// A pose relative to the start camera, turned into the sequence's own axes.
+Pose in_own_axes(const Record& record, const Pose& T_start_camera);
 
 /// The estimate in the sequence's own axes and stamps, one pose a processed frame: a frame that was
 /// not tracked has the pose the system held. Left out are dropped frames and poses that are not

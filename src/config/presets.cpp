@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include "config/presets.h"
+
+#include <fmt/format.h>
+
+#include "backends/registry.h"
+#include "config/nearest.h"
+#include "core/error.h"
+
+namespace slambench {
+namespace {
+
+/// The table of backends runs from slow to fast.
+std::string quickest_backend() {
+  std::string_view quickest;
+  for (const BackendEntry& entry : backend_table()) {
+    if (entry.availability().available) quickest = entry.name;
+  }
+  return std::string(quickest);
+}
+
+}  // namespace
+
+std::vector<Preset> preset_table() {
+  return {
+      {"fast",
+       "the quickest combination available here that agrees with the reference",
+       {{"backend", quickest_backend()}}},
+      {"slambench1",
+       "the published behaviour: flat volume, the paper's kernels one by one",
+       {{"map", "grid"}}},
+  };
+}
+
+Preset find_preset(std::string_view name) {
+  std::vector<std::string_view> known;
+  for (Preset& preset : preset_table()) {
+    if (preset.name == name) return std::move(preset);
+    known.push_back(preset.name);
+  }
+  throw UsageError(fmt::format("--preset: found '{}', expected one of {}{}", name,
+                               fmt::join(known, ", "), suggestion(name, known)));
+}
+
+}  // namespace slambench

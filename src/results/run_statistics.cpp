@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include "results/run_statistics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string_view>
+
+namespace slambench {
+namespace {
+
+bool in_computation(Stage stage) {
+  return stage == Stage::preprocess || stage == Stage::track || stage == Stage::integrate ||
+         stage == Stage::raycast;
+}
+
+/// Statistics of figure(times) over the frames.
+template <class Figure>
+Statistics over(const std::vector<const FrameTimes*>& frames, Figure figure) {
+  std::vector<double> values;
+  values.reserve(frames.size());
+  for (const FrameTimes* times : frames) values.push_back(figure(*times));
+  return summarize(values);
+}
+
+std::optional<double> share_of(Stage stage, const Statistics& seconds,
+                               const Statistics& computation) {
+  if (!in_computation(stage) || !(computation.mean > 0)) return std::nullopt;
+  return seconds.mean / computation.mean;
+}
+
+std::optional<KernelFigures> kernel_figures(const KernelInfo& kernel,
+                                            const std::vector<const FrameTimes*>& frames,
+                                            const Statistics& computation) {
+  const auto i = static_cast<std::size_t>(kernel.kernel);
+  KernelFigures figures;
+  figures.kernel = kernel.kernel;
+  for (const FrameTimes* times : frames) figures.calls += times->kernel_calls[i];
+  if (figures.calls == 0) return std::nullopt;
+  figures.seconds = over(frames, [i](const FrameTimes& t) { return t.kernel_s[i]; });
+  figures.share = share_of(kernel.stage, figures.seconds, computation);
+  const auto calls = static_cast<double>(figures.calls);
+  const auto count = static_cast<double>(frames.size());
+  figures.calls_per_frame = calls / count;
+  figures.seconds_per_call = figures.seconds.mean * count / calls;
+  return figures;
+}
+
+bool all_finite(const FrameTimes& times) {
+  const auto finite = [](double s) { return std::isfinite(s); };
+  return std::all_of(times.stage_s.begin(), times.stage_s.end(), finite) &&
+         std::all_of(times.kernel_s.begin(), times.kernel_s.end(), finite);
+}
+
+}  // namespace
+
+TimeFigures time_figures(const Record& record) {
+  TimeFigures figures;
+  std::vector<const FrameTimes*> measured;
+  std::size_t processed = 0;
+  for (const FrameRecord& frame : record.frames) {
+    if (frame.dropped) continue;
+    if (++processed <= static_cast<std::size_t>(std::max(0, record.warmup_frames))) {
+      figures.warmup.push_back(frame.index);
+    } else {
+      measured.push_back(&frame.times);
+    }
+  }
+  if (record.wall_s > 0) figures.fps_wall = static_cast<double>(processed) / record.wall_s;
+  figures.measured_frames = measured.size();
+  if (measured.empty()) return figures;
+
+  figures.computation_s = over(measured, [](const FrameTimes& t) { return t.computation_s(); });
+  figures.total_s = over(measured, [](const FrameTimes& t) { return t.total_s(); });
+  if (figures.computation_s.mean > 0) figures.fps_computation = 1 / figures.computation_s.mean;
+  for (std::size_t i = 0; i < stage_count; ++i) {
+    const auto stage = static_cast<Stage>(i);
+    if (stage == Stage::init) continue;
+    const Statistics seconds = over(measured, [i](const FrameTimes& t) { return t.stage_s[i]; });
+    figures.stages.push_back({stage, seconds, share_of(stage, seconds, figures.computation_s)});
+  }
+  for (const KernelInfo& kernel : kernel_table()) {
+    if (auto k = kernel_figures(kernel, measured, figures.computation_s)) {
+      figures.kernels.push_back(*k);
+    }
+  }
+  return figures;
+}
+
+FrameCounts frame_counts(const Record& record) {
+  FrameCounts counts;
+  for (const FrameRecord& frame : record.frames) {
+    if (frame.dropped) {
+      counts.dropped.push_back(frame.index);
+      continue;
+    }
+    ++counts.processed;
+    if (frame.integrated) ++counts.integrated;
+    if (frame.tracked) {
+      ++counts.tracked;
+      continue;
+    }
+    counts.untracked.push_back(frame.index);
+    const bool tried = std::accumulate(frame.iterations.begin(), frame.iterations.end(), 0) > 0;
+    if (tried) counts.lost.push_back(frame.index);
+  }
+  return counts;
+}
+
+std::vector<std::pair<int, int>> ranges(const std::vector<int>& ascending) {
+  std::vector<std::pair<int, int>> runs;
+  for (const int number : ascending) {
+    if (!runs.empty() && runs.back().second + 1 == number) {
+      runs.back().second = number;
+    } else {
+      runs.emplace_back(number, number);
+    }
+  }
+  return runs;
+}
+
+std::vector<std::string> reasons_invalid(const Record& record) {
+  std::vector<std::string> reasons = record.invalid_reasons;
+  if (!record.valid && reasons.empty()) reasons.emplace_back("the run was judged invalid");
+
+  bool processed = false;
+  for (const FrameRecord& frame : record.frames) {
+    if (frame.dropped) continue;
+    processed = true;
+    if (!frame.T_start_camera.matrix().allFinite()) {
+      reasons.push_back(fmt::format("the pose of frame {} is not finite", frame.index));
+    }
+    if (!all_finite(frame.times)) {
+      reasons.push_back(fmt::format("a time of frame {} is not finite", frame.index));
+    }
+  }
+  if (!processed) reasons.emplace_back("no frame was processed");
+
+  const Provenance& p = record.provenance;
+  const std::pair<std::string_view, const std::string*> told[] = {
+      {"version", &p.version},
+      {"commit", &p.commit},
+      {"compiler", &p.compiler},
+      {"cpu", &p.cpu},
+      {"os", &p.os},
+      {"backend", &p.backend},
+      {"device", &p.device},
+      {"command", &p.command},
+      {"started_at", &p.started_at},
+      {"sequence", &record.sequence},
+      {"input_hash", &record.input_hash},
+  };
+  for (const auto& [name, value] : told) {
+    if (value->empty()) reasons.push_back(fmt::format("{} is not known", name));
+  }
+  if (record.parameters.empty()) reasons.emplace_back("the parameters are not known");
+  return reasons;
+}
+
+}  // namespace slambench

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "results/record.h"
+
+namespace slambench {
+
+/// Seconds a frame in one stage.
+struct StageFigures {
+  Stage stage = Stage::acquire;
+  Statistics seconds;
+  std::optional<double> share;  ///< mean / mean computation; none for a stage outside computation
+};
+
+/// Seconds a frame in one kernel: all its calls in a frame together, 0 in a frame without a call.
+struct KernelFigures {
+  Kernel kernel = Kernel::acquire;
+  Statistics seconds;
+  std::optional<double> share;  ///< as of a stage
+  long calls = 0;               ///< in all measured frames
+  double calls_per_frame = 0;
+  double seconds_per_call = 0;
+};
+
+/// The times of a run. Measured are processed frames without the first, warm-up ones.
+struct TimeFigures {
+  std::vector<int> warmup;  ///< indices of the frames left out
+  std::size_t measured_frames = 0;
+  Statistics computation_s, total_s;      ///< as the paper defines them (meters/frame_timer.h)
+  std::vector<StageFigures> stages;       ///< in pipeline order, without start-up
+  std::vector<KernelFigures> kernels;     ///< those called in a measured frame, in pipeline order
+  std::optional<double> fps_computation;  ///< 1 / mean computation
+  std::optional<double> fps_wall;         ///< processed frames / duration of the frame loop
+};
+
+TimeFigures time_figures(const Record& record);
+
+/// What became of the frames; the lists hold frame indices in order.
+struct FrameCounts {
+  std::size_t processed = 0, tracked = 0, integrated = 0;
+  std::vector<int> untracked;  ///< processed, and the pose was not updated
+  std::vector<int> lost;       ///< of these: alignment was tried and failed
+  std::vector<int> dropped;    ///< never processed
+};
+
+FrameCounts frame_counts(const Record& record);
+
+/// Runs of consecutive numbers (first, last) of an ascending list.
+std::vector<std::pair<int, int>> ranges(const std::vector<int>& ascending);
+
+/// Why the record must not count as a success: the run's own reasons, then what is not a number and
+/// what is not told of build, machine, input and parameters. Empty for a valid record.
+std::vector<std::string> reasons_invalid(const Record& record);
+
+}  // namespace slambench
