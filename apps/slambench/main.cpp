@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: The SLAMBench authors
-#include <fmt/core.h>
+#include <fmt/format.h>
 
-#include <cstdio>
 #include <exception>
 #include <map>
+#include <new>
+#include <string>
 
 #include "commands.h"
+#include "config/nearest.h"
+#include "help.h"
+#include "terminal.h"
 
 namespace slambench {
 namespace {
@@ -20,22 +24,85 @@ struct Command {
 constexpr Command commands[] = {
     {"evaluate", "compare two trajectories: absolute trajectory and relative pose error",
      add_evaluate},
+    {"list", "what there is: backends, maps, kernels, sequences, presets, parameters", add_list},
 };
 
+constexpr const char* footer =
+    "'slambench COMMAND --help' says more about each.\n"
+    "Exit status: 0 ok, 1 failed or interrupted, 2 usage, 3 bad input,\n"
+    "4 unavailable here, 5 a threshold was violated.";
+
+/// Long options with their dashes, then letters, of the command.
+std::vector<std::string> option_words(const CLI::App& command) {
+  std::vector<std::string> words;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const auto& word : option->get_lnames()) words.push_back("--" + word);
+  }
+  return words;
+}
+
+/// The first argument that nobody wanted is the user's mistake.
+void reject_extras(const CLI::App& command) {
+  const std::vector<std::string> extras = command.remaining();
+  if (extras.empty()) return;
+  std::string word = extras.front();
+  for (const auto& extra : extras) {
+    if (extra.starts_with("-")) {
+      word = extra.substr(0, extra.find('='));
+      break;
+    }
+  }
+  const bool is_option = word.starts_with("-");
+  const auto known = option_words(command);
+  throw UsageError(fmt::format(
+      "{} '{}'{}", is_option ? "unknown option" : "unexpected argument", word,
+      is_option ? suggestion(word, std::vector<std::string_view>(known.begin(), known.end()))
+                : ""));
+}
+
+void require_command(const CLI::App& app) {
+  if (!app.get_subcommands().empty()) return;
+  const auto extras = app.remaining();
+  if (extras.empty()) throw UsageError("no command; 'slambench --help' lists them");
+  if (extras.front().starts_with("-")) reject_extras(app);
+  std::vector<std::string_view> known;
+  for (const Command& command : commands) known.emplace_back(command.name);
+  throw UsageError(
+      fmt::format("unknown command '{}'{}", extras.front(), suggestion(extras.front(), known)));
+}
+
 ExitStatus run(int argc, char** argv) {
-  CLI::App app{"SLAMBench: a benchmark of dense visual SLAM", "slambench"};
-  app.require_subcommand(1);
+  CLI::App app{"A benchmark of dense visual SLAM: speed, accuracy and energy.", "slambench"};
+  app.formatter_fn([](const CLI::App* command, const std::string&, CLI::AppFormatMode) {
+    return help_text(*command);
+  });
+  app.set_help_flag("-h,--help", "print this and end");
+  app.footer(footer);
+  app.allow_extras();
   std::map<const CLI::App*, Action> actions;
   for (const Command& command : commands) {
     CLI::App* sub = app.add_subcommand(command.name, command.sentence);
+    sub->allow_extras();
+    sub->footer("");
     actions[sub] = command.add(*sub);
   }
   try {
     app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    print(app.help());
+    return ExitStatus::ok;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? ExitStatus::ok : ExitStatus::usage;
+    throw UsageError(error.what());
   }
-  return actions.at(app.get_subcommands().front())();
+  require_command(app);
+  const CLI::App* chosen = app.get_subcommands().front();
+  reject_extras(*chosen);
+  return actions.at(chosen)();
+}
+
+int report(ExitStatus status, const std::string& message) {
+  print_error(fmt::format("slambench: {}\n", message));
+  return static_cast<int>(status);
 }
 
 }  // namespace
@@ -44,15 +111,13 @@ ExitStatus run(int argc, char** argv) {
 int main(int argc, char** argv) {
   using slambench::ExitStatus;
   try {
+    slambench::prepare_standard_streams();
     return static_cast<int>(slambench::run(argc, argv));
   } catch (const slambench::Error& error) {
-    fmt::print(stderr, "slambench: {}\n", error.what());
-    return static_cast<int>(error.status());
+    return slambench::report(error.status(), error.what());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "slambench: not enough memory\n");
-    return static_cast<int>(ExitStatus::unavailable);
+    return slambench::report(ExitStatus::unavailable, "not enough memory");
   } catch (const std::exception& error) {
-    fmt::print(stderr, "slambench: internal error: {}\n", error.what());
-    return static_cast<int>(ExitStatus::failed);
+    return slambench::report(ExitStatus::failed, fmt::format("internal error: {}", error.what()));
   }
 }

@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 #include <stdexcept>
 
+#include "core/error.h"
 #include "core/se3.h"
 
 namespace slambench {
@@ -31,12 +32,28 @@ Matrix6 normal_matrix(const Reduction& reduction) {
 
 }  // namespace
 
+std::span<const MapInfo> map_table() {
+  static constexpr MapInfo table[] = {
+      {MapKind::grid, "grid", "the paper's flat array of voxels"},
+  };
+  return table;
+}
+
 std::string_view name(MapKind map) {
-  switch (map) {
-    case MapKind::grid:
-      return "grid";
+  for (const MapInfo& info : map_table()) {
+    if (info.map == map) return info.name;
   }
-  return "?";
+  throw std::invalid_argument("name: a map that is not in the table");
+}
+
+MapKind map_from_name(std::string_view name) {
+  std::string known;
+  for (const MapInfo& info : map_table()) {
+    if (info.name == name) return info.map;
+    known += known.empty() ? "" : ", ";
+    known += info.name;
+  }
+  throw UsageError("--map: found '" + std::string(name) + "', expected one of " + known);
 }
 
 Rigid3f to_rigid3f(const Pose& pose) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,7 +20,16 @@ namespace slambench {
 enum class MapKind {
   grid,  ///< the paper's flat array
 };
+/// One line of the table of maps.
+struct MapInfo {
+  MapKind map;
+  std::string_view name;
+  std::string_view sentence;
+};
+std::span<const MapInfo> map_table();
 std::string_view name(MapKind map);
+/// Throws UsageError that lists the known names.
+MapKind map_from_name(std::string_view name);
 
 /// Memory that a backend owns: a host vector, a cl_mem, a device pointer. Opaque to all others.
 class Storage {

@@ -17,11 +17,6 @@ Float3 to_float3(const std::array<double, 3>& v) {
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
-MapKind map_kind(const std::string& word) {
-  if (word == name(MapKind::grid)) return MapKind::grid;
-  throw UsageError(fmt::format("--map: found '{}', expected one of grid", word));
-}
-
 /// The size of the images that kernels work on.
 Size computation_size(Size input, int ratio) {
   if (input.width % ratio != 0 || input.height % ratio != 0) {
@@ -65,7 +60,7 @@ KinectFusion::KinectFusion(Backend& backend, const KinectFusionParameters& param
       camera_(camera.divided_by(static_cast<float>(parameters.compute_size_ratio))),
       units_per_m_(units_per_m),
       observer_(observer) {
-  const MapKind map = map_kind(p_.map);
+  const MapKind map = map_from_name(p_.map);
   require_kernels(backend_, map);
   const Size size = computation_size(input, p_.compute_size_ratio);
 

@@ -5,10 +5,12 @@
 namespace slambench {
 
 ParameterList KinectFusionParameters::describe() {
+  std::vector<std::string_view> maps;
+  for (const MapInfo& info : map_table()) maps.push_back(info.name);
   return {
       "kinectfusion",
       {
-          {"map", 0, "", &map, 0, 0, "how the volume is stored", {"grid"}},
+          {"map", 0, "", &map, 0, 0, "how the volume is stored", maps},
           {"compute-size-ratio", 'c', "", &compute_size_ratio, 1, 8,
            "input size divided by computation size: 1, 2, 4 or 8"},
           {"volume-resolution", 'v', "voxels", &volume_resolution, 8, 4096,

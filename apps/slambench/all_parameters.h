@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <vector>
+
+#include "backends/registry.h"
+#include "core/parameter.h"
+#include "results/output_parameters.h"
+#include "slam/kinect_fusion.h"
+
+namespace slambench {
+
+/// Everything a user can turn in a run. The lists point into the object, which stays in its place.
+struct AllParameters {
+  KinectFusionParameters kinectfusion;
+  BackendOptions backend;
+  OutputParameters output;
+
+  AllParameters() = default;
+  AllParameters(const AllParameters&) = delete;
+  AllParameters& operator=(const AllParameters&) = delete;
+
+  std::vector<ParameterList> lists() {
+    return {backend.describe(), output.describe(), kinectfusion.describe()};
+  }
+};
+
+}  // namespace slambench

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "all_parameters.h"
+#include "commands.h"
+#include "config/presets.h"
+#include "help.h"
+#include "kernels/kernel.h"
+#include "parameter_options.h"
+#include "terminal.h"
+
+namespace slambench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Row = std::vector<std::string>;
+
+constexpr std::size_t page_width = 80;
+
+/// Columns as wide as their widest cell, two blanks apart; the last one is wrapped at the page.
+std::string table(const std::string& title, const std::vector<Row>& rows) {
+  std::vector<std::size_t> widths;
+  for (const Row& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  std::string text = title + "\n";
+  for (const Row& row : rows) {
+    std::string line = " ";
+    for (std::size_t i = 0; i + 1 < row.size(); ++i) {
+      line += fmt::format(" {:{}} ", row[i], widths[i]);
+    }
+    const std::size_t indent = line.size() + 1;
+    text += fmt::format("{} {}\n", line, wrapped(row.back(), page_width - indent, indent));
+  }
+  return text + "\n";
+}
+
+Json as_json(const Preset& preset) {
+  Json assignments = Json::object();
+  for (const auto& [name, value] : preset.assignments) assignments[name] = value;
+  return {{"name", preset.name}, {"sentence", preset.sentence}, {"parameters", assignments}};
+}
+
+Json as_json(const BackendEntry& entry) {
+  const Availability availability = entry.availability();
+  Json json = {
+      {"name", entry.name}, {"sentence", entry.sentence}, {"available", availability.available}};
+  if (availability.available) {
+    json["devices"] = entry.devices();
+  } else {
+    json["reason"] = availability.reason;
+  }
+  return json;
+}
+
+Json as_json(const KernelInfo& info) {
+  return {{"name", info.name},
+          {"paper_name", info.paper_name},
+          {"stage", name(info.stage)},
+          {"pattern", info.pattern},
+          {"in", info.in},
+          {"out", info.out},
+          {"sentence", info.sentence}};
+}
+
+Json as_json(const Parameter& parameter) {
+  Json json = {{"name", parameter.name}};
+  if (parameter.flag != 0) json["letter"] = std::string(1, parameter.flag);
+  json["unit"] = parameter.unit;
+  json["default"] = to_text(parameter);
+  json["expected"] = expectation(parameter);
+  json["sentence"] = parameter.sentence;
+  return json;
+}
+
+/// Everything that the command tells, in one object; the tables are made of the same sources.
+Json everything() {
+  Json json;
+  for (const BackendEntry& entry : backend_table()) json["backends"].push_back(as_json(entry));
+  for (const MapInfo& map : map_table()) {
+    json["maps"].push_back({{"name", map.name}, {"sentence", map.sentence}});
+  }
+  for (const KernelInfo& info : kernel_table()) json["kernels"].push_back(as_json(info));
+  for (const Preset& preset : preset_table()) json["presets"].push_back(as_json(preset));
+  AllParameters parameters;
+  for (const ParameterList& list : parameters.lists()) {
+    for (const Parameter& parameter : list.parameters) {
+      json["parameters"][std::string(list.group)].push_back(as_json(parameter));
+    }
+  }
+  return json;
+}
+
+std::string tables() {
+  std::vector<Row> backends, maps, kernels, presets;
+  for (const BackendEntry& entry : backend_table()) {
+    const Availability availability = entry.availability();
+    backends.push_back({std::string(entry.name),
+                        availability.available ? "available" : "unavailable",
+                        std::string(entry.sentence)});
+    if (!availability.available) {
+      backends.push_back({"", "", availability.reason});
+      continue;
+    }
+    int index = 0;
+    for (const std::string& device : entry.devices()) {
+      backends.push_back({"", "", fmt::format("device {}: {}", index++, device)});
+    }
+  }
+  for (const MapInfo& map : map_table()) {
+    maps.push_back({std::string(map.name), std::string(map.sentence)});
+  }
+  kernels.push_back({"name", "in the paper", "stage", "in", "out", "pattern"});
+  for (const KernelInfo& info : kernel_table()) {
+    kernels.push_back({std::string(info.name), std::string(info.paper_name),
+                       std::string(name(info.stage)), std::string(info.in), std::string(info.out),
+                       std::string(info.pattern)});
+  }
+  for (const Preset& preset : preset_table()) {
+    presets.push_back({std::string(preset.name), std::string(preset.sentence)});
+  }
+  return table("Backends (--backend)", backends) + table("Maps (--map)", maps) +
+         table("Presets (--preset)", presets) + table("Kernels", kernels) +
+         "Parameters: slambench list --parameters\n";
+}
+
+std::string option_text(const Parameter& parameter) {
+  return parameter.flag == 0 ? fmt::format("--{}", parameter.name)
+                             : fmt::format("-{}, --{}", parameter.flag, parameter.name);
+}
+
+std::string parameter_tables() {
+  AllParameters parameters;
+  std::string text;
+  for (const ParameterList& list : parameters.lists()) {
+    std::vector<Row> rows = {{"option", "default", "unit", "range and meaning"}};
+    for (const Parameter& parameter : list.parameters) {
+      const std::string range = range_words(parameter);
+      rows.push_back({option_text(parameter), to_text(parameter), std::string(parameter.unit),
+                      fmt::format("{}{}{}", range, range.empty() ? "" : ": ", parameter.sentence)});
+    }
+    text += table(fmt::format("[{}]", list.group), rows);
+  }
+  text.pop_back();
+  return text;
+}
+
+constexpr const char* markdown_head = R"(# Parameters
+
+Everything that can be set in a run. On the command line a parameter is the option of its name; in a
+configuration file (`--config FILE`, TOML) it is the key of its name in the table of its group:
+
+```toml
+sequence = "living-room/2"   # optional: what to run
+preset = "fast"              # optional
+
+[kinectfusion]
+volume-size = 4.8            # one number stands for three equal ones
+pyramid-levels = [10, 5, 4]
+```
+
+The command line is stronger than the file, the file than the preset, the preset than what suits the
+sequence, that than the default. The record says of each value who set it.
+
+This file is generated: `slambench list --parameters --markdown > docs/parameters.md`.
+)";
+
+/// In a cell of a table, a bar must not end the cell.
+std::string cell(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '|') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
+
+std::string parameter_markdown() {
+  AllParameters parameters;
+  std::string text = markdown_head;
+  for (const ParameterList& list : parameters.lists()) {
+    text += fmt::format(
+        "\n## `[{}]`\n\n| option | default | unit | range | meaning |\n"
+        "|---|---|---|---|---|\n",
+        list.group);
+    for (const Parameter& parameter : list.parameters) {
+      const std::string value = to_text(parameter);
+      text += fmt::format("| `{}` | {} | {} | {} | {} |\n", option_text(parameter),
+                          value.empty() ? "" : fmt::format("`{}`", value), parameter.unit,
+                          cell(range_words(parameter)), cell(parameter.sentence));
+    }
+  }
+  return text;
+}
+
+struct ListOptions {
+  bool json = false, parameters = false, markdown = false;
+};
+
+}  // namespace
+
+Action add_list(CLI::App& command) {
+  auto options = std::make_shared<ListOptions>();
+  command.add_flag("--parameters", options->parameters, "all parameters of a run as a table");
+  command.add_flag("--markdown", options->markdown, "with --parameters: as docs/parameters.md");
+  command.add_flag("--json", options->json, "everything as one JSON object");
+  return [options] {
+    if (options->markdown && !options->parameters) {
+      throw UsageError("--markdown: needs --parameters");
+    }
+    if (options->json) {
+      print(everything().dump(2) + "\n");
+    } else if (options->markdown) {
+      print(parameter_markdown());
+    } else {
+      print(options->parameters ? parameter_tables() : tables());
+    }
+    return ExitStatus::ok;
+  };
+}
+
+}  // namespace slambench

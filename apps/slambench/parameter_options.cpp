@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include "parameter_options.h"
+
+#include <fmt/format.h>
+
+namespace slambench {
+namespace {
+
+struct Placeholder {
+  const char* operator()(const bool*) const { return ""; }
+  const char* operator()(const int*) const { return "N"; }
+  const char* operator()(const double*) const { return "X"; }
+  const char* operator()(const std::optional<double>*) const { return "X"; }
+  const char* operator()(const std::string*) const { return "TEXT"; }
+  const char* operator()(const std::array<int, 3>*) const { return "N[,N,N]"; }
+  const char* operator()(const std::array<double, 3>*) const { return "X[,Y,Z]"; }
+  const char* operator()(const std::vector<int>*) const { return "N,N,..."; }
+  const char* operator()(const std::optional<std::array<double, 4>>*) const { return "A,B,C,D"; }
+};
+
+bool is_switch(const Parameter& parameter) {
+  return std::holds_alternative<bool*>(parameter.value);
+}
+
+std::string option_names(const Parameter& parameter) {
+  return parameter.flag == 0 ? fmt::format("--{}", parameter.name)
+                             : fmt::format("-{},--{}", parameter.flag, parameter.name);
+}
+
+}  // namespace
+
+std::string range_words(const Parameter& parameter) {
+  if (is_switch(parameter)) return "";
+  if (std::holds_alternative<std::string*>(parameter.value)) {
+    return fmt::format("{}", fmt::join(parameter.choices, ", "));
+  }
+  return fmt::format("{} to {}", parameter.min, parameter.max);
+}
+
+std::string help_sentence(const Parameter& parameter) {
+  std::string text(parameter.sentence);
+  std::string facts(parameter.unit);
+  const auto add = [&facts](const std::string& fact) {
+    if (!facts.empty() && !fact.empty()) facts += ", ";
+    facts += fact;
+  };
+  add(range_words(parameter));
+  const std::string value = to_text(parameter);
+  if (!value.empty() && !is_switch(parameter)) add(fmt::format("default {}", value));
+  return facts.empty() ? text : fmt::format("{} ({})", text, facts);
+}
+
+void ParameterOptions::add(CLI::App& command, const std::vector<ParameterList>& lists) {
+  for (const ParameterList& list : lists) {
+    for (const Parameter& parameter : list.parameters) {
+      CLI::Option* option = is_switch(parameter) ? command.add_flag(option_names(parameter))
+                                                 : command.add_option(option_names(parameter));
+      if (!is_switch(parameter)) option->expected(1);
+      option->type_name(std::visit(Placeholder{}, parameter.value));
+      option->description(help_sentence(parameter));
+      option->group(fmt::format("Parameters, table [{}] of a configuration file", list.group));
+      options_.emplace_back(parameter.name, option);
+    }
+  }
+}
+
+void ParameterOptions::apply(Settings& settings) const {
+  for (const auto& [name, option] : options_) {
+    if (option->count() == 0) continue;
+    settings.set(name, option->results().back(), Origin::command_line, "command line");
+  }
+}
+
+}  // namespace slambench

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "config/settings.h"
+#include "core/parameter.h"
+
+namespace slambench {
+
+/// Parameters as options of a command, in one group of the help per list.
+class ParameterOptions {
+ public:
+  void add(CLI::App& command, const std::vector<ParameterList>& lists);
+  /// Sets what was given on the command line. Throws UsageError.
+  void apply(Settings& settings) const;
+
+ private:
+  std::vector<std::pair<std::string, CLI::Option*>> options_;
+};
+
+/// "edges of the volume; m, 0.01 to 1000 (default 2,2,2)"
+std::string help_sentence(const Parameter& parameter);
+
+/// "0.01 to 1000", "grid or bricks"; empty where anything goes.
+std::string range_words(const Parameter& parameter);
+
+}  // namespace slambench
