@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -53,11 +54,18 @@ struct SequenceInfo {
   std::vector<std::string> notes;  ///< what the reader had to assume or skip, for people
 };
 
+/// Is told while frames are made ready; returns false to end that early.
+using PrepareProgress = std::function<bool(int done, int total)>;
+
 /// A recorded or rendered RGB-D sequence with random access.
 class Source {
  public:
   virtual ~Source() = default;
   virtual const SequenceInfo& info() const = 0;
+  /// Makes the first `frames` frames ready to be read without delay: a sequence that is rendered is
+  /// rendered here, a recording has nothing to do. Throws Error(failed) when `progress` ends it
+  /// early; what is ready by then stays so.
+  virtual void prepare(int /*frames*/, const PrepareProgress& /*progress*/) {}
   /// Reads frame `index`; the frame's buffers are reused. Throws InputError naming the file.
   virtual void read(int index, Frame& frame) = 0;
 };
