@@ -68,6 +68,12 @@ class Source {
   virtual void prepare(int /*frames*/, const PrepareProgress& /*progress*/) {}
   /// Reads frame `index`; the frame's buffers are reused. Throws InputError naming the file.
   virtual void read(int index, Frame& frame) = 0;
+  /// The time stamp that `read` gives frame `index`. Reads the frame unless a source knows better.
+  virtual double time_s(int index) {
+    Frame frame;
+    read(index, frame);
+    return frame.time_s;
+  }
 };
 
 /// A layout that can be read, for detection and listing.

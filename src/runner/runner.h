@@ -19,7 +19,8 @@ struct RunParameters {
   int frames = 0;          ///< at most so many first frames; 0: all
   bool real_time = false;  ///< at the sequence's own rate: late frames are dropped
   double fps = 0;          ///< > 0: real time at this rate
-  int warmup_frames = 5;   ///< processed first and left out of the time statistics
+  int warmup_frames = 5;   ///< processed first and left out of the time statistics; fewer when that
+                           ///< would leave none
 
   ParameterList describe();
 };
@@ -36,12 +37,35 @@ struct RunHooks {
   const std::atomic<bool>* stop = nullptr;                  ///< set: end after this frame
 };
 
-/// Runs the system over the source and fills the record's `frames`, `wall_s`, `input_hash`,
-/// `complete` and `warmup_frames`. The timer must be the system's observer.
+/// Throws InputError when no frame of the run has a pose in the ground truth at its time stamp: for
+/// a ground truth that the user chose. A sequence without ground truth passes.
+void check_ground_truth(Source& source, const RunParameters& parameters);
+
+/// Runs the system over the source and fills all of the record that this decides: the sequence,
+/// `frames`, `init`, `wall_s`, `input_hash`, `map_bytes`, `complete`, `incomplete_reason` and
+/// `warmup_frames`. The timer must be the system's observer; what it saw before is start-up.
+///
+/// Every frame in order; or in real time: the frame that is due is floor(elapsed * fps), the ones
+/// before it that were not processed are dropped and recorded as such, and where none is due yet
+/// the run waits. Only acquiring, processing and rendering make time pass in this sense: waiting,
+/// hashing and the hooks are in no stage, and hashing and the hooks are neither in `wall_s` nor do
+/// they make frames late. Throws UsageError when real time is asked for and no rate is known, and
+/// what the source and the system throw.
 void run_frames(Source& source, System& system, FrameTimer& timer, const Clock& clock,
                 const RunParameters& parameters, const RunHooks& hooks, Record* record);
 
-/// Fills the record's accuracy from its frames and the ground truth.
+/// Fills the record's accuracy from its frames and the ground truth, each frame's errors included,
+/// and says whether the record is valid. Poses are paired by evo's rule at its limit, so that evo
+/// on trajectory.tum and the ground truth gives the same figures.
+///
+/// - over_processed: the estimated trajectory as it is written.
+/// - over_all: every frame; dropped ones, and those whose pose is not finite, hold the last pose.
+/// - the relative error is over one second of the sequence at its nominal rate, also where the
+///   stamps count frames (ICL-NUIM).
+/// - slambench1_ate_m: see slambench1_ate(). A dropped frame repeats the row before it. The ground
+///   truth's rows count from the first that belongs to a frame, where each next row belongs to the
+///   next frame; else they are those that belong to the frames. Absent when the ground truth does
+///   not start in the camera's own axes, as the published script only shifts.
 void judge(const SequenceInfo& sequence, Record* record);
 
 }  // namespace slambench

@@ -161,7 +161,7 @@ const std::vector<SideEffect>& side_effects() {
       {R"(\b(std::)?(exit|_exit|_Exit|quick_exit|abort|terminate)\s*\()", "ends the process"},
       {R"(\b(secure_)?getenv\s*\(|\benviron\b)", "reads the environment", {"src/io/"}},
       {R"(\b(steady|system|high_resolution)_clock::|\b(clock_gettime|gettimeofday)\s*\()"
-       R"(|\bstd::time\s*\(|\bsleep_(for|until)\s*\()",
+       R"(|\bstd::time\s*\(|\bthis_thread::sleep_\w+\s*\()",
        "looks at a clock",
        {"src/meters/"}},
   };
