@@ -106,6 +106,8 @@ void Backend::mm2meters(DeviceImage<float>& depth_m, const DeviceImage<std::uint
 void Backend::bilateral_filter(DeviceImage<float>& filtered_m, const DeviceImage<float>& depth_m,
                                const DeviceImage<float>& gaussian, float range_sigma_m) {
   check(filtered_m.size == depth_m.size, "bilateral_filter: sizes differ");
+  check(gaussian.size.height == 1 && gaussian.size.width % 2 == 1,
+        "bilateral_filter: weights not one row of odd length");
   const KernelScope scope(launch_observer(), Kernel::bilateral_filter);
   do_bilateral_filter(filtered_m, depth_m, gaussian, range_sigma_m);
 }
