@@ -5,11 +5,11 @@
 namespace slambench {
 
 Pose in_own_axes(const Record& record, const Pose& T_start_camera) {
-  Pose own;
-  own.linear() =
-      record.own_from_camera * T_start_camera.linear() * record.own_from_camera.inverse();
-  own.translation() = record.own_from_camera * T_start_camera.translation();
-  own.makeAffine();
+  const Eigen::Matrix3d& M = record.own_from_camera;
+  Pose own = Pose::Identity();
+  // Adding zero makes zeros positive: a flipped axis must not show as "-0" in files.
+  own.linear() = (M * T_start_camera.linear() * M.inverse()).array() + 0.0;
+  own.translation() = (M * T_start_camera.translation()).array() + 0.0;
   return own;
 }
 

@@ -55,6 +55,23 @@ bool all_finite(const FrameTimes& times) {
          std::all_of(times.kernel_s.begin(), times.kernel_s.end(), finite);
 }
 
+/// What a run that nobody judged would hide.
+std::vector<std::string> broken_figures(const Record& record) {
+  std::vector<std::string> reasons;
+  std::vector<int> bad_poses, bad_times;
+  for (const FrameRecord& frame : record.frames) {
+    if (frame.dropped) continue;
+    if (!frame.T_start_camera.matrix().allFinite()) bad_poses.push_back(frame.index);
+    if (!all_finite(frame.times)) bad_times.push_back(frame.index);
+  }
+  for (const auto& [what, frames] : {std::pair{"pose", &bad_poses}, {"time", &bad_times}}) {
+    if (frames->empty()) continue;
+    reasons.push_back(fmt::format("{} not finite in frames {}", what, frame_list_text(*frames)));
+  }
+  if (frame_counts(record).processed == 0) reasons.emplace_back("no frame was processed");
+  return reasons;
+}
+
 }  // namespace
 
 TimeFigures time_figures(const Record& record) {
@@ -122,22 +139,27 @@ std::vector<std::pair<int, int>> ranges(const std::vector<int>& ascending) {
   return runs;
 }
 
+std::string frame_list_text(const std::vector<int>& ascending) {
+  constexpr std::size_t most = 8;
+  const auto runs = ranges(ascending);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(runs.size(), most); ++i) {
+    const auto& [first, last] = runs[i];
+    if (i > 0) text += ", ";
+    text += first == last ? fmt::format("{}", first) : fmt::format("{}-{}", first, last);
+  }
+  if (runs.size() > most) {
+    const auto shown = static_cast<std::size_t>(
+        std::find(ascending.begin(), ascending.end(), runs[most].first) - ascending.begin());
+    text += fmt::format(" and {} more", ascending.size() - shown);
+  }
+  return text;
+}
+
 std::vector<std::string> reasons_invalid(const Record& record) {
   std::vector<std::string> reasons = record.invalid_reasons;
   if (!record.valid && reasons.empty()) reasons.emplace_back("the run was judged invalid");
-
-  bool processed = false;
-  for (const FrameRecord& frame : record.frames) {
-    if (frame.dropped) continue;
-    processed = true;
-    if (!frame.T_start_camera.matrix().allFinite()) {
-      reasons.push_back(fmt::format("the pose of frame {} is not finite", frame.index));
-    }
-    if (!all_finite(frame.times)) {
-      reasons.push_back(fmt::format("a time of frame {} is not finite", frame.index));
-    }
-  }
-  if (!processed) reasons.emplace_back("no frame was processed");
+  if (reasons.empty()) reasons = broken_figures(record);
 
   const Provenance& p = record.provenance;
   const std::pair<std::string_view, const std::string*> told[] = {

@@ -54,8 +54,11 @@ FrameCounts frame_counts(const Record& record);
 /// Runs of consecutive numbers (first, last) of an ascending list.
 std::vector<std::pair<int, int>> ranges(const std::vector<int>& ascending);
 
-/// Why the record must not count as a success: the run's own reasons, then what is not a number and
-/// what is not told of build, machine, input and parameters. Empty for a valid record.
+/// "0-3, 17": frame numbers as runs of consecutive ones; after eight runs the rest is counted.
+std::string frame_list_text(const std::vector<int>& ascending);
+
+/// Why the record must not count as a success: the run's own reasons, or else what is not a number;
+/// then what is not told of build, machine, input and parameters. Empty for a valid record.
 std::vector<std::string> reasons_invalid(const Record& record);
 
 }  // namespace slambench

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include "results/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "results/run_statistics.h"
+
+namespace slambench {
+namespace {
+
+constexpr double ms_per_s = 1e3;
+constexpr double mm_per_m = 1e3;
+constexpr std::size_t width = 80;
+
+enum class Look { plain, heading, good, bad };
+
+/// Lines of text, coloured when that is wanted.
+class Page {
+ public:
+  explicit Page(bool colors) : colors_(colors) {}
+
+  void line(std::string_view text, Look look = Look::plain) {
+    static constexpr std::string_view codes[] = {"", "\x1b[1m", "\x1b[32m", "\x1b[1;31m"};
+    const bool colored = colors_ && look != Look::plain;
+    if (colored) text_ += codes[static_cast<std::size_t>(look)];
+    text_ += text;
+    if (colored) text_ += "\x1b[0m";
+    text_ += '\n';
+  }
+  /// Under a label, broken between words so that it fits the terminal.
+  void wrapped(std::string_view label, std::string_view text, Look look = Look::plain) {
+    constexpr std::size_t indent = 12;
+    std::string row = fmt::format("{:<{}}", label, indent);
+    std::size_t used = 0;
+    while (!text.empty()) {
+      const std::string_view word = text.substr(0, text.find(' '));
+      text.remove_prefix(std::min(text.size(), word.size() + 1));
+      if (used > 0 && row.size() + 1 + word.size() > width) {
+        line(row, look);
+        row.assign(indent, ' ');
+        used = 0;
+      }
+      if (used++ > 0) row += ' ';
+      row += word;
+    }
+    line(row, look);
+  }
+  void gap() { text_ += '\n'; }
+  std::string text() && { return std::move(text_); }
+
+ private:
+  const bool colors_;
+  std::string text_;
+};
+
+std::string size_text(Size size) { return fmt::format("{}x{}", size.width, size.height); }
+
+std::string parameter(const Record& record, std::string_view name) {
+  const auto found = std::find_if(record.parameters.begin(), record.parameters.end(),
+                                  [&](const UsedParameter& p) { return p.name == name; });
+  return found == record.parameters.end() ? "" : found->value;
+}
+
+std::string share_text(const std::optional<double>& share) {
+  return share ? fmt::format("{:.1f} %", 100 * *share) : "-";
+}
+
+void identify(const Record& r, const FrameCounts& counts, Page* page) {
+  page->line(fmt::format("{}: {} frames on {}", r.sequence,
+                         counts.processed + counts.dropped.size(), r.provenance.backend),
+             Look::heading);
+  page->wrapped("device", r.provenance.device);
+  std::string sizes = fmt::format("input {}, computation {}", size_text(r.input_size),
+                                  size_text(r.computation_size));
+  if (auto voxels = parameter(r, "volume-resolution"); !voxels.empty()) {
+    std::replace(voxels.begin(), voxels.end(), ',', 'x');
+    sizes += fmt::format(", volume {}", voxels);
+  }
+  if (auto size = parameter(r, "volume-size"); !size.empty()) {
+    std::replace(size.begin(), size.end(), ',', 'x');
+    sizes += fmt::format(" in {} m", size);
+  }
+  page->wrapped("sizes", sizes);
+}
+
+void list_kernels(const TimeFigures& figures, Page* page) {
+  page->gap();
+  page->line(fmt::format("{:<18}{:>13}{:>10}{:>14}{:>13}", "kernel", "ms per frame", "share",
+                         "calls/frame", "ms per call"),
+             Look::heading);
+  for (const KernelFigures& k : figures.kernels) {
+    page->line(fmt::format("{:<18}{:>13.3f}{:>10}{:>14.2f}{:>13.3f}", name(k.kernel),
+                           k.seconds.mean * ms_per_s, share_text(k.share), k.calls_per_frame,
+                           k.seconds_per_call * ms_per_s));
+  }
+}
+
+std::string stage_row(std::string_view what, const Statistics& s, const std::string& share) {
+  return fmt::format("{:<14}{:>11.3f}{:>11.3f}{:>11.3f}{:>11.3f}{:>11.3f}{:>11}", what,
+                     s.mean * ms_per_s, s.median * ms_per_s, s.p95 * ms_per_s, s.p99 * ms_per_s,
+                     s.max * ms_per_s, share);
+}
+
+void list_stages(const TimeFigures& figures, Page* page) {
+  page->gap();
+  page->line(fmt::format("{:<14}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}", "stage", "mean ms", "median",
+                         "p95", "p99", "max", "share"),
+             Look::heading);
+  for (const StageFigures& stage : figures.stages) {
+    page->line(stage_row(name(stage.stage), stage.seconds, share_text(stage.share)));
+  }
+  const auto whole = figures.computation_s.mean > 0 ? std::optional(1.0) : std::nullopt;
+  page->line(stage_row("computation", figures.computation_s, share_text(whole)));
+  page->line(stage_row("total", figures.total_s, "-"));
+}
+
+void tell_speed(const Record& r, const TimeFigures& figures, Page* page) {
+  page->gap();
+  std::vector<std::string> rates;
+  if (figures.fps_computation) {
+    rates.push_back(fmt::format("{:.2f} frames/s of computation", *figures.fps_computation));
+  }
+  if (figures.fps_wall) {
+    rates.push_back(fmt::format("{:.2f} frames/s of all {:.1f} s", *figures.fps_wall, r.wall_s));
+  }
+  if (!rates.empty()) page->wrapped("speed", fmt::format("{}", fmt::join(rates, ", ")), Look::good);
+  std::string measured = fmt::format("{} frames", figures.measured_frames);
+  if (!figures.warmup.empty()) {
+    measured += fmt::format("; left out as warm-up: {}", frame_list_text(figures.warmup));
+  }
+  page->wrapped("measured", measured);
+}
+
+/// "4 lost (0-3, the start)"
+std::string counted(const std::vector<int>& frames, std::string_view what, int first_processed) {
+  if (frames.empty()) return fmt::format("0 {}", what);
+  const auto runs = ranges(frames);
+  const bool only_start = runs.size() == 1 && runs.front().first == first_processed;
+  return fmt::format("{} {} ({}{})", frames.size(), what, frame_list_text(frames),
+                     only_start ? ", the start" : "");
+}
+
+void tell_frames(const Record& r, const FrameCounts& counts, Page* page) {
+  const auto first = std::find_if(r.frames.begin(), r.frames.end(),
+                                  [](const FrameRecord& frame) { return !frame.dropped; });
+  const int start = first == r.frames.end() ? -1 : first->index;
+  page->wrapped(
+      "frames",
+      fmt::format("{} tracked; {}; {}; {}", counts.tracked,
+                  counted(counts.untracked, "untracked", start),
+                  counted(counts.lost, "lost", start), counted(counts.dropped, "dropped", -1)),
+      counts.lost.empty() ? Look::plain : Look::bad);
+}
+
+void tell_errors(std::string_view label, std::string_view what, const Statistics& s, Page* page) {
+  page->line(fmt::format("{:<12}{:<16}mean {:>8.2f}  rmse {:>8.2f}  max {:>8.2f} mm", label, what,
+                         s.mean * mm_per_m, s.rmse * mm_per_m, s.max * mm_per_m));
+}
+
+std::string_view spelled(std::string_view alignment) {
+  if (alignment == "first_pose") return "first pose";
+  if (alignment == "se3") return "SE(3)";
+  if (alignment == "sim3") return "Sim(3)";
+  return alignment == "none" ? "not aligned" : alignment;
+}
+
+void tell_trajectory(std::string_view of, const TrajectoryFigures& figures, Page* page) {
+  page->wrapped("accuracy",
+                fmt::format("{}: {} of {} poses matched with {} of ground truth", of,
+                            figures.matched, figures.estimate_poses, figures.ground_truth_poses));
+  for (const auto& [alignment, errors] : figures.ate_m) {
+    if (errors.count > 0) tell_errors("  ATE", spelled(alignment), errors, page);
+  }
+  if (figures.rpe_translation_m.count > 0) {
+    const std::string over = fmt::format("over {} s", figures.rpe_delta_s);
+    tell_errors("  RPE", over, figures.rpe_translation_m, page);
+    const Statistics& turn = figures.rpe_rotation_deg;
+    page->line(fmt::format("{:<12}{:<16}mean {:>8.3f}  rmse {:>8.3f}  max {:>8.3f} deg", "", "",
+                           turn.mean, turn.rmse, turn.max));
+  }
+}
+
+void tell_accuracy(const Record& r, const FrameCounts& counts, Page* page) {
+  if (r.over_processed) {
+    tell_trajectory("processed frames", *r.over_processed, page);
+  } else {
+    const auto reason = r.absent.find("accuracy.over_processed");
+    page->wrapped("accuracy",
+                  reason == r.absent.end() ? "not judged" : "not judged: " + reason->second);
+  }
+  if (r.slambench1_ate_m && r.slambench1_ate_m->count > 0) {
+    tell_errors("  ATE", "as SLAMBench 1", *r.slambench1_ate_m, page);
+  }
+  // Without a dropped frame both are the same.
+  if (r.over_all && !counts.dropped.empty()) tell_trajectory("all frames", *r.over_all, page);
+}
+
+void tell_validity(const Record& r, Page* page) {
+  if (!r.complete) {
+    page->wrapped("INCOMPLETE",
+                  r.incomplete_reason.empty() ? "the run was interrupted" : r.incomplete_reason,
+                  Look::bad);
+  }
+  for (const std::string& reason : reasons_invalid(r)) page->wrapped("INVALID", reason, Look::bad);
+}
+
+}  // namespace
+
+std::string summary_text(const Record& record, std::string_view folder, bool colors) {
+  Page page(colors);
+  const FrameCounts counts = frame_counts(record);
+  const TimeFigures figures = time_figures(record);
+  identify(record, counts, &page);
+  if (figures.measured_frames > 0) {
+    list_kernels(figures, &page);
+    list_stages(figures, &page);
+  }
+  tell_speed(record, figures, &page);
+  tell_frames(record, counts, &page);
+  tell_accuracy(record, counts, &page);
+  page.wrapped("memory", fmt::format("{:.1f} MiB of map",
+                                     static_cast<double>(record.map_bytes) / (1024.0 * 1024.0)));
+  tell_validity(record, &page);
+  if (!folder.empty()) page.line(fmt::format("{:<12}{}", "results", folder));
+  return std::move(page).text();
+}
+
+}  // namespace slambench

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include "results/record.h"
+
+namespace slambench::testing {
+
+inline double& seconds(FrameTimes& times, Stage stage) {
+  return times.stage_s[static_cast<std::size_t>(stage)];
+}
+inline void called(FrameTimes& times, Kernel kernel, double seconds, int calls) {
+  times.kernel_s[static_cast<std::size_t>(kernel)] = seconds;
+  times.kernel_calls[static_cast<std::size_t>(kernel)] = calls;
+}
+
+/// Times that are `scale` x (1, 2, 4, 8, 16, 32) binary fractions of a second a stage.
+inline FrameTimes sample_times(double scale) {
+  FrameTimes times;
+  seconds(times, Stage::acquire) = scale / 64;
+  seconds(times, Stage::preprocess) = scale / 32;
+  seconds(times, Stage::track) = scale / 16;
+  seconds(times, Stage::integrate) = scale / 8;
+  seconds(times, Stage::raycast) = scale / 4;
+  seconds(times, Stage::render) = scale / 2;
+  called(times, Kernel::acquire, scale / 64, 1);
+  called(times, Kernel::mm2meters, scale / 32, 1);
+  called(times, Kernel::track, scale / 16, 4);
+  called(times, Kernel::integrate, scale / 8, 1);
+  return times;
+}
+
+inline Statistics sample_statistics(double mean) {
+  Statistics s;
+  s.count = 2;
+  s.mean = s.median = s.p95 = s.p99 = s.min = s.max = s.rmse = mean;
+  return s;
+}
+
+/// Five frames of a y-up sequence: a warm-up frame untracked, one tracked, one dropped, one lost,
+/// one tracked. Complete and valid.
+inline Record sample_record() {
+  Record r;
+  r.provenance = {.version = "1.2.3",
+                  .commit = "0123456789abcdef-dirty",
+                  .compiler = "GNU 12.2.0",
+                  .flags = "-O3",
+                  .build_type = "Release",
+                  .cpu = "A CPU",
+                  .os = "Linux 6.1 x86_64",
+                  .backend = "serial",
+                  .device = "A CPU",
+                  .driver = "",
+                  .cores = 2,
+                  .host_memory_bytes = 1024,
+                  .command = "slambench run kt3",
+                  .started_at = "2015-05-26T09:30:00Z"};
+  r.parameters = {
+      {"kinectfusion", "volume-resolution", "voxels", "256,256,256", "default"},
+      {"kinectfusion", "volume-size", "m", "5,5,5", "command line"},
+  };
+  r.sequence = "kt3";
+  r.layout = "icl-nuim";
+  r.path = "/data/kt3";
+  r.ground_truth_file = "/data/kt3/gt.freiburg";
+  r.axes = "x right, y up, z forward";
+  r.sequence_frames = 400;
+  r.input_size = {640, 480};
+  r.computation_size = {320, 240};
+  r.camera = {481.5f, 480, 319.5f, 239.5f};
+  r.units_per_m = 1000;
+  r.own_from_camera = Eigen::Vector3d(1, -1, 1).asDiagonal();
+  r.input_hash = "00112233445566778899aabbccddeeff";
+
+  for (int i = 0; i < 5; ++i) {
+    FrameRecord frame;
+    frame.index = i;
+    frame.time_s = 0.5 * i;
+    if (i == 2) {
+      frame.dropped = true;
+    } else {
+      frame.tracked = i == 1 || i == 4;
+      frame.integrated = i < 2;
+      frame.T_start_camera.translation() = Eigen::Vector3d(i, 0.25 * i, 0.5 * i);
+      if (i > 0) {
+        frame.iterations = {4, 2 + i};
+        frame.inliers = 1000;
+        frame.inlier_fraction = 0.5;
+        frame.residual_m = 0.001;
+        frame.error_se3_m = 0.125;
+      }
+      if (i == 1) frame.error_first_pose_m = 0.0625;
+      frame.times = sample_times(i == 0 ? 1000 : i);
+    }
+    r.frames.push_back(frame);
+  }
+  called(r.init, Kernel::init_volume, 0.25, 1);
+  seconds(r.init, Stage::init) = 0.5;
+  r.wall_s = 16;
+  r.warmup_frames = 1;
+  r.map_bytes = 64 << 20;
+
+  TrajectoryFigures figures;
+  figures.association = "tum";
+  figures.limit_s = 0.02;
+  figures.estimate_poses = 4;
+  figures.ground_truth_poses = 400;
+  figures.matched = 3;
+  figures.ate_m = {{"first_pose", sample_statistics(0.004)}, {"se3", sample_statistics(0.001)}};
+  figures.rpe_translation_m = sample_statistics(0.012);
+  figures.rpe_rotation_deg = sample_statistics(0.25);
+  r.over_processed = figures;
+  r.over_all = figures;
+  r.slambench1_ate_m = sample_statistics(0.0207);
+  return r;
+}
+
+}  // namespace slambench::testing

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include "results/summary.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "results/output_parameters.h"
+#include "results/run_statistics.h"
+#include "sample_record.h"
+
+namespace slambench {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::sample_record;
+
+TEST(SummaryText, IsTheLiteralTextOfASmallRecord) {
+  EXPECT_EQ(summary_text(sample_record(), "results/x", false), R"(kt3: 5 frames on serial
+device      A CPU
+sizes       input 640x480, computation 320x240, volume 256x256x256 in 5x5x5 m
+
+kernel             ms per frame     share   calls/frame  ms per call
+acquire                  41.667         -          1.00       41.667
+mm2meters                83.333     6.7 %          1.00       83.333
+track                   166.667    13.3 %          4.00       41.667
+integrate               333.333    26.7 %          1.00      333.333
+
+stage             mean ms     median        p95        p99        max      share
+acquire            41.667     46.875     60.938     62.188     62.500          -
+preprocess         83.333     93.750    121.875    124.375    125.000      6.7 %
+track             166.667    187.500    243.750    248.750    250.000     13.3 %
+integrate         333.333    375.000    487.500    497.500    500.000     26.7 %
+raycast           666.667    750.000    975.000    995.000   1000.000     53.3 %
+render           1333.333   1500.000   1950.000   1990.000   2000.000          -
+computation      1250.000   1406.250   1828.125   1865.625   1875.000    100.0 %
+total            2625.000   2953.125   3839.062   3917.812   3937.500          -
+
+speed       0.80 frames/s of computation, 0.25 frames/s of all 16.0 s
+measured    3 frames; left out as warm-up: 0
+frames      2 tracked; 2 untracked (0, 3); 1 lost (3); 1 dropped (2)
+accuracy    processed frames: 3 of 4 poses matched with 400 of ground truth
+  ATE       first pose      mean     4.00  rmse     4.00  max     4.00 mm
+  ATE       SE(3)           mean     1.00  rmse     1.00  max     1.00 mm
+  RPE       over 1 s        mean    12.00  rmse    12.00  max    12.00 mm
+                            mean    0.250  rmse    0.250  max    0.250 deg
+  ATE       as SLAMBench 1  mean    20.70  rmse    20.70  max    20.70 mm
+accuracy    all frames: 3 of 4 poses matched with 400 of ground truth
+  ATE       first pose      mean     4.00  rmse     4.00  max     4.00 mm
+  ATE       SE(3)           mean     1.00  rmse     1.00  max     1.00 mm
+  RPE       over 1 s        mean    12.00  rmse    12.00  max    12.00 mm
+                            mean    0.250  rmse    0.250  max    0.250 deg
+memory      64.0 MiB of map
+results     results/x
+)");
+}
+
+TEST(SummaryText, FitsEightyColumnsWithLongNamesAndTimes) {
+  Record record = sample_record();
+  record.provenance.device =
+      "A processor with a very long name, of many words, at 2.40 GHz, and "
+      "a second one beside it";
+  record.invalid_reasons = {
+      "a long reason that explains in many words what went wrong and how one "
+      "would have to run it again"};
+  for (int i = 100; i < 200; i += 2) {
+    record.frames.push_back(record.frames[3]);
+    record.frames.back().index = i;
+  }
+  for (auto& frame : record.frames) {
+    for (double& s : frame.times.stage_s) s *= 1000;
+  }
+  std::istringstream lines(summary_text(record, "results/x", false));
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
+}
+
+TEST(SummaryText, ColorsOnlyWhenWanted) {
+  EXPECT_THAT(summary_text(sample_record(), "", true), HasSubstr("\x1b["));
+  EXPECT_THAT(summary_text(sample_record(), "", false), Not(HasSubstr("\x1b")));
+}
+
+TEST(SummaryText, SaysWhyNothingWasJudged) {
+  Record record = sample_record();
+  record.over_processed.reset();
+  record.absent["accuracy.over_processed"] = "the sequence has no ground truth";
+  EXPECT_THAT(summary_text(record, "", false),
+              HasSubstr("accuracy    not judged: the sequence has no ground truth\n"));
+}
+
+TEST(SummaryText, SaysThatARunIsIncompleteOrInvalid) {
+  Record record = sample_record();
+  record.complete = false;
+  record.invalid_reasons = {"why"};
+  const std::string text = summary_text(record, "", false);
+  EXPECT_THAT(text, HasSubstr("INCOMPLETE  the run was interrupted\n"));
+  EXPECT_THAT(text, HasSubstr("INVALID     why\n"));
+}
+
+TEST(SummaryText, NamesTheStartWhenOnlyItWasUntracked) {
+  Record record = sample_record();
+  record.frames.resize(2);
+  EXPECT_THAT(summary_text(record, "", false),
+              HasSubstr("frames      1 tracked; 1 untracked (0, the start); 0 lost; 0 dropped\n"));
+}
+
+TEST(SummaryText, OfARunWithoutFramesHasNoTables) {
+  const std::string text = summary_text(Record{}, "", false);
+  EXPECT_THAT(text, HasSubstr("measured    0 frames\n"));
+  EXPECT_THAT(text, Not(HasSubstr("ms per frame")));
+}
+
+TEST(FrameListText, JoinsRunsAndCountsTheRest) {
+  EXPECT_EQ(frame_list_text({0, 1, 2, 3, 17}), "0-3, 17");
+  EXPECT_EQ(frame_list_text({0, 2, 4, 6, 8, 10, 12, 14}), "0, 2, 4, 6, 8, 10, 12, 14");
+  EXPECT_EQ(frame_list_text({0, 2, 4, 6, 8, 10, 12, 14, 15, 17, 18}),
+            "0, 2, 4, 6, 8, 10, 12, 14-15 and 2 more");
+  EXPECT_EQ(frame_list_text({}), "");
+}
+
+TEST(OutputParameters, AreSetFromText) {
+  OutputParameters p;
+  const std::vector<ParameterList> lists = {p.describe()};
+  EXPECT_EQ(lists[0].group, "output");
+  set_from_text(*find(lists, "out"), "folder");
+  set_from_text(*find(lists, "force"), "true");
+  set_from_text(*find(lists, "images"), "10");
+  set_from_text(*find(lists, "log-file"), "log");
+  set_from_text(*find(lists, "dump-volume"), "volume");
+  set_from_text(*find(lists, "quiet"), "true");
+  set_from_text(*find(lists, "json"), "true");
+  set_from_text(*find(lists, "no-gui"), "true");
+  EXPECT_EQ(p.out, "folder");
+  EXPECT_EQ(p.log_file, "log");
+  EXPECT_EQ(p.dump_volume, "volume");
+  EXPECT_EQ(p.images, 10);
+  EXPECT_TRUE(p.force && p.quiet && p.json && p.no_gui);
+}
+
+TEST(OutputParameters, HaveTheShortNamesOfSlambench1) {
+  OutputParameters p;
+  const std::vector<ParameterList> lists = {p.describe()};
+  EXPECT_EQ(find(lists, "log-file")->flag, 'o');
+  EXPECT_EQ(find(lists, "dump-volume")->flag, 'd');
+  EXPECT_EQ(find(lists, "no-gui")->flag, 'q');
+}
+
+}  // namespace
+}  // namespace slambench
