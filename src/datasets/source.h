@@ -21,7 +21,7 @@ namespace slambench {
 /// What a user can say about any source.
 struct SourceParameters {
   std::optional<std::array<double, 4>> camera;  ///< overrides the source's fx,fy,cx,cy
-  std::optional<double> depth_scale;            ///< overrides the depth units per metre
+  std::optional<double> depth_scale;            ///< overrides the file's depth units per metre
   std::string ground_truth;                     ///< file that overrides the source's own
   bool noise = false;                           ///< living-room only
   int noise_seed = 0;
@@ -39,7 +39,8 @@ struct SequenceInfo {
   Intrinsics camera;  ///< y-down, at depth_size; after overrides
   float units_per_m = 1000;
   bool has_color = false;
-  double fps = 30;  ///< nominal rate, from the time stamps where there are any
+  double fps = 30;  ///< nominal rate, from the time stamps where they are times
+  double first_time_s = 0, last_time_s = 0;  ///< own time stamps of the first and last frame
 
   /// The sequence's own axes: `own_from_camera` maps the y-down camera axes used here to those of
   /// its ground truth (diag(1,-1,1) for ICL-NUIM, identity else). A pose T here is
@@ -48,6 +49,7 @@ struct SequenceInfo {
   std::string axes;         ///< in words, for people
   Trajectory ground_truth;  ///< in the sequence's own axes and time stamps; may be empty
   std::string ground_truth_file;
+  int frames_with_ground_truth = 0;  ///< frames that have a pose closer than 0.02 s
 
   /// Settings that suit this sequence (parameter name, value), weaker than any the user makes.
   std::vector<std::pair<std::string, std::string>> suggested;
@@ -74,6 +76,16 @@ class Source {
     read(index, frame);
     return frame.time_s;
   }
+
+  /// Whether `read` fills in the colour image too. Only pictures need it, and decoding it takes as
+  /// long as the depth does: off unless asked for, and `Frame::color` is empty then.
+  void set_color(bool wanted) { wants_color_ = wanted; }
+
+ protected:
+  bool wants_color() const { return wants_color_; }
+
+ private:
+  bool wants_color_ = false;
 };
 
 /// A layout that can be read, for detection and listing.

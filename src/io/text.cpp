@@ -47,7 +47,7 @@ std::optional<double> parse_finite(std::string_view text) {
   return number;
 }
 
-std::string quoted(std::string_view text) {
+std::string quote(std::string_view text) {
   constexpr std::size_t longest = 40;
   std::string shown(text.substr(0, longest));
   for (char& c : shown) {

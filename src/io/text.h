@@ -25,6 +25,6 @@ std::optional<double> parse_finite(std::string_view text);
 
 /// What a message shows of a piece of a file: at most 40 characters in quotes, control characters
 /// and bytes that are not ASCII replaced by '?'.
-std::string quoted(std::string_view text);
+std::string quote(std::string_view text);
 
 }  // namespace slambench

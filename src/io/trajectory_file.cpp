@@ -27,7 +27,7 @@ StampedPose parse_pose(const std::string& path, const TextLine& line) {
   for (std::size_t i = 0; i < v.size(); ++i) {
     const auto number = parse_finite(line.fields[i]);
     if (!number) {
-      throw InputError(where, field_names[i], quoted(line.fields[i]), "a finite number");
+      throw InputError(where, field_names[i], quote(line.fields[i]), "a finite number");
     }
     v[i] = *number;
   }
