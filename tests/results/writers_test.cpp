@@ -11,6 +11,7 @@
 #include <limits>
 #include <locale>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
@@ -96,6 +97,30 @@ TEST(RecordJson, TheSchemaRefusesOtherDocuments) {
   json without = good;
   without["provenance"].erase("commit");
   EXPECT_THAT(schema_errors(without), Not(IsEmpty())) << "success without provenance";
+}
+
+/// Names of all properties that a schema declares.
+void collect_properties(const json& schema, std::set<std::string>* found) {
+  if (schema.is_object() && schema.contains("properties")) {
+    for (const auto& property : schema["properties"].items()) found->insert(property.key());
+  }
+  if (!schema.is_structured()) return;
+  for (const auto& part : schema) collect_properties(part, found);
+}
+
+TEST(RecordJson, EveryFieldIsExplained) {
+  const std::string page = read_file(SLAMBENCH_DOCS_DIR "/record.md");
+  std::set<std::string> properties;
+  collect_properties(json::parse(read_file(SLAMBENCH_DOCS_DIR "/record.schema.json")), &properties);
+  EXPECT_GT(properties.size(), 60u);
+  for (const auto& property : properties) {
+    // Figures of every statistic, sizes and cameras go without saying.
+    static const std::set<std::string> plain = {"count",  "mean", "median", "p95",  "p99",
+                                                "min",    "max",  "std",    "rmse", "width",
+                                                "height", "fx",   "fy",     "cx",   "cy"};
+    if (plain.contains(property)) continue;
+    EXPECT_NE(page.find(property), std::string::npos) << property;
+  }
 }
 
 TEST(RecordJson, HoldsTheFigures) {
