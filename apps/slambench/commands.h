@@ -14,6 +14,7 @@ using Action = std::function<ExitStatus()>;
 
 /// Each declares its arguments on `command` and returns what to do with them.
 Action add_evaluate(CLI::App& command);
+Action add_info(CLI::App& command);
 Action add_list(CLI::App& command);
 
 }  // namespace slambench

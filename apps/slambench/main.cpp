@@ -24,6 +24,7 @@ struct Command {
 constexpr Command commands[] = {
     {"evaluate", "compare two trajectories: absolute trajectory and relative pose error",
      add_evaluate},
+    {"info", "what a sequence has: frames, camera, axes, ground truth, suggestions", add_info},
     {"list", "what there is: backends, maps, kernels, sequences, presets, parameters", add_list},
 };
 

@@ -37,7 +37,8 @@ std::string contents_of(const std::string& folder) {
   const fs::file_status status = fs::status(sequence, error);
   if (!fs::exists(status)) {
     const std::string why = error ? error.message() : "No such file or directory";
-    throw InputError(fmt::format("{}: {}, and no built-in sequence has this name", sequence, why));
+    throw InputError(fmt::format("{}: {}, and no built-in sequence has this name",
+                                 sequence.empty() ? "''" : sequence, why));
   }
   std::string layouts;
   for (const SourceEntry& entry : source_table()) {

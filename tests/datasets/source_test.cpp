@@ -46,7 +46,7 @@ TEST(OpenSource, SaysWhenThereIsNothing) {
   EXPECT_EQ(
       error_of(folder.write("file", "") + "/below"),
       folder.path("file/below") + ": Not a directory, and no built-in sequence has this name");
-  EXPECT_EQ(error_of(""), ": No such file or directory, and no built-in sequence has this name");
+  EXPECT_EQ(error_of(""), "'': No such file or directory, and no built-in sequence has this name");
 }
 
 TEST(OpenSource, SaysWhatItFoundAndWhatItLookedFor) {
