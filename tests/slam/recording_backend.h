@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "backends/host/host_backend.h"
+
+namespace slambench::testing {
+
+/// A backend that computes nothing: it keeps what the pipeline asked for, and answers `align` as
+/// the test says.
+class RecordingBackend final : public HostBackend {
+ public:
+  std::string_view name() const override { return "recording"; }
+  bool supports(Kernel kernel, MapKind) const override { return missing.count(kernel) == 0; }
+  void finish() override { ++finished; }
+
+  std::set<Kernel> missing;
+  AlignResult answer;  ///< of the next align
+
+  int finished = 0;
+  Size gaussian_size;
+  float gaussian_sigma_px = 0, units_per_m = 0, range_sigma_m = 0;
+  std::vector<float> half_ranges_m;
+  std::vector<Size> half_sizes;
+  std::vector<Intrinsics> level_cameras;
+  std::optional<AlignInput> align_input;  ///< its pointers are the pipeline's
+  double condition = 0;
+  Volume made;  ///< resolution and size only
+  std::optional<IntegrateParameters> integrated;
+  std::optional<RaycastParameters> raycasted, rendered;
+  ShadeParameters shading;
+  float render_near_m = 0, render_far_m = 0;
+  int raycasts = 0, integrations = 0, volume_pictures = 0;
+
+ protected:
+  std::unique_ptr<Storage> allocate_volume(MapKind map, Int3 resolution, Float3 size_m) override {
+    made.map = map;
+    made.resolution = resolution;
+    made.size_m = size_m;
+    return HostBackend::allocate_volume(map, resolution, size_m);
+  }
+  void do_generate_gaussian(DeviceImage<float>& weights, float sigma_px) override {
+    gaussian_size = weights.size;
+    gaussian_sigma_px = sigma_px;
+  }
+  void do_init_volume(Volume&) override {}
+  void do_mm2meters(DeviceImage<float>&, const DeviceImage<std::uint16_t>&, float units) override {
+    units_per_m = units;
+  }
+  void do_bilateral_filter(DeviceImage<float>&, const DeviceImage<float>&,
+                           const DeviceImage<float>&, float sigma_m) override {
+    range_sigma_m = sigma_m;
+  }
+  void do_half_sample(DeviceImage<float>& half_m, const DeviceImage<float>&,
+                      float range_m) override {
+    half_ranges_m.push_back(range_m);
+    half_sizes.push_back(half_m.size);
+  }
+  void do_depth2vertex(DeviceImage<Float3>&, const DeviceImage<float>&,
+                       Intrinsics camera) override {
+    level_cameras.push_back(camera);
+  }
+  void do_vertex2normal(DeviceImage<Float3>&, const DeviceImage<Float3>&) override {}
+  void do_track(DeviceImage<TrackData>&, const DeviceImage<Float3>&, const DeviceImage<Float3>&,
+                const DeviceImage<Float3>&, const DeviceImage<Float3>&,
+                const TrackParameters&) override {}
+  Reduction do_reduce(const DeviceImage<TrackData>&) override { return {}; }
+  void do_integrate(Volume&, const DeviceImage<float>&,
+                    const IntegrateParameters& parameters) override {
+    ++integrations;
+    integrated = parameters;
+  }
+  void do_raycast(DeviceImage<Float3>&, DeviceImage<Float3>&, const Volume&,
+                  const RaycastParameters& parameters) override {
+    ++raycasts;
+    raycasted = parameters;
+  }
+  void do_render_depth(DeviceImage<Rgba8>&, const DeviceImage<float>&, float near_m,
+                       float far_m) override {
+    render_near_m = near_m;
+    render_far_m = far_m;
+  }
+  void do_render_track(DeviceImage<Rgba8>&, const DeviceImage<TrackData>&) override {}
+  void do_render_volume(DeviceImage<Rgba8>&, const Volume&, const RaycastParameters& view,
+                        const ShadeParameters& shade_parameters) override {
+    ++volume_pictures;
+    rendered = view;
+    shading = shade_parameters;
+  }
+  AlignResult do_align(const AlignInput& input, double solve_condition) override {
+    align_input = input;
+    condition = solve_condition;
+    return answer;
+  }
+};
+
+}  // namespace slambench::testing
