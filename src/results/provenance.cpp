@@ -87,8 +87,7 @@ std::string system_file(const char* path) {
 
 std::string operating_system() {
   std::string text;
-  const std::string release = system_file("/etc/os-release");
-  for (const auto& [key, value] : key_values(release, '=')) {
+  for (const auto& [key, value] : key_values(system_file("/etc/os-release"), '=')) {
     if (key == "PRETTY_NAME") text = fmt::format("{}, ", value);
   }
   utsname system{};
