@@ -87,7 +87,8 @@ std::string system_file(const char* path) {
 
 std::string operating_system() {
   std::string text;
-  for (const auto& [key, value] : key_values(system_file("/etc/os-release"), '=')) {
+  const std::string release = system_file("/etc/os-release");
+  for (const auto& [key, value] : key_values(release, '=')) {
     if (key == "PRETTY_NAME") text = fmt::format("{}, ", value);
   }
   utsname system{};

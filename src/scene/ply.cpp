@@ -80,7 +80,7 @@ class Reader {
 
   void read_header() {
     where_ = "line 1";
-    if (!rest_.starts_with("ply")) fail(quoted(rest_.substr(0, 12)), "ply");
+    if (!rest_.starts_with("ply")) fail(quote(rest_.substr(0, 12)), "ply");
     take_line();
     bool has_format = false;
     for (int number = 2;; ++number) {
@@ -98,7 +98,7 @@ class Reader {
       } else if (words[0] == "property" && !elements_.empty()) {
         add_property(words);
       } else {
-        fail(quoted(line), "a line of a PLY header");
+        fail(quote(line), "a line of a PLY header");
       }
     }
     where_ = "header";
@@ -114,7 +114,7 @@ class Reader {
     } else if (word == "binary_big_endian") {
       format_ = Format::big_endian;
     } else {
-      fail(quoted(word), "ascii, binary_little_endian or binary_big_endian");
+      fail(quote(word), "ascii, binary_little_endian or binary_big_endian");
     }
     return true;
   }
@@ -124,7 +124,7 @@ class Reader {
     const auto [end, error] =
         std::from_chars(count_word.data(), count_word.data() + count_word.size(), count);
     if (error != std::errc{} || end != count_word.data() + count_word.size()) {
-      fail(quoted(count_word), "a number of elements");
+      fail(quote(count_word), "a number of elements");
     }
     elements_.push_back({std::string(name), count, {}});
   }
@@ -132,10 +132,10 @@ class Reader {
   void add_property(const std::vector<std::string_view>& words) {
     Property property;
     const bool list = words.size() == 5 && words[1] == "list";
-    if (!list && words.size() != 3) fail(quoted(words[0]), "property TYPE NAME");
+    if (!list && words.size() != 3) fail(quote(words[0]), "property TYPE NAME");
     const auto type = type_of(words[list ? 3 : 1]);
     if (list) property.count_type = type_of(words[2]);
-    if (!type || (list && !property.count_type)) fail(quoted(words[1]), "a type of PLY");
+    if (!type || (list && !property.count_type)) fail(quote(words[1]), "a type of PLY");
     property.type = *type;
     property.name = words.back();
     elements_.back().properties.push_back(property);
@@ -178,7 +178,7 @@ class Reader {
     const std::string_view word = rest_.substr(begin, end - begin);
     rest_.remove_prefix(end);
     const auto number = parse_finite(word);
-    if (!number) fail(quoted(word), "a number");
+    if (!number) fail(quote(word), "a number");
     return *number;
   }
 
