@@ -6,23 +6,28 @@
 
 #include "backends/registry.h"
 #include "core/parameter.h"
+#include "datasets/source.h"
 #include "results/output_parameters.h"
+#include "runner/runner.h"
 #include "slam/kinect_fusion.h"
 
 namespace slambench {
 
 /// Everything a user can turn in a run. The lists point into the object, which stays in its place.
 struct AllParameters {
-  KinectFusionParameters kinectfusion;
+  RunParameters run;
+  SourceParameters source;
   BackendOptions backend;
   OutputParameters output;
+  KinectFusionParameters kinectfusion;
 
   AllParameters() = default;
   AllParameters(const AllParameters&) = delete;
   AllParameters& operator=(const AllParameters&) = delete;
 
   std::vector<ParameterList> lists() {
-    return {backend.describe(), output.describe(), kinectfusion.describe()};
+    return {run.describe(), source.describe(), backend.describe(), output.describe(),
+            kinectfusion.describe()};
   }
 };
 

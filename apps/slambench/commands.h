@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
 
 #include "core/error.h"
 
@@ -13,6 +14,8 @@ namespace slambench {
 using Action = std::function<ExitStatus()>;
 
 /// Each declares its arguments on `command` and returns what to do with them.
+/// `command_line` is the whole of it, for the record.
+Action add_run(CLI::App& command, const std::string& command_line);
 Action add_evaluate(CLI::App& command);
 Action add_info(CLI::App& command);
 Action add_list(CLI::App& command);

@@ -89,6 +89,9 @@ Json everything() {
     json["maps"].push_back({{"name", map.name}, {"sentence", map.sentence}});
   }
   for (const KernelInfo& info : kernel_table()) json["kernels"].push_back(as_json(info));
+  for (const SourceEntry& entry : source_table()) {
+    json["layouts"].push_back({{"name", entry.layout}, {"sentence", entry.sentence}});
+  }
   for (const Preset& preset : preset_table()) json["presets"].push_back(as_json(preset));
   AllParameters parameters;
   for (const ParameterList& list : parameters.lists()) {
@@ -100,7 +103,7 @@ Json everything() {
 }
 
 std::string tables() {
-  std::vector<Row> backends, maps, kernels, presets;
+  std::vector<Row> backends, maps, kernels, layouts, presets;
   for (const BackendEntry& entry : backend_table()) {
     const Availability availability = entry.availability();
     backends.push_back({std::string(entry.name),
@@ -124,12 +127,16 @@ std::string tables() {
                        std::string(name(info.stage)), std::string(info.in), std::string(info.out),
                        std::string(info.pattern)});
   }
+  for (const SourceEntry& entry : source_table()) {
+    layouts.push_back({std::string(entry.layout), std::string(entry.sentence)});
+  }
   for (const Preset& preset : preset_table()) {
     presets.push_back({std::string(preset.name), std::string(preset.sentence)});
   }
   return table("Backends (--backend)", backends) + table("Maps (--map)", maps) +
-         table("Presets (--preset)", presets) + table("Kernels", kernels) +
-         "Parameters: slambench list --parameters\n";
+         table("Presets (--preset)", presets) +
+         table("Layouts of sequences, recognised by themselves", layouts) +
+         table("Kernels", kernels) + "Parameters: slambench list --parameters\n";
 }
 
 std::string option_text(const Parameter& parameter) {

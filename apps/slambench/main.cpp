@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <functional>
 #include <map>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "commands.h"
 #include "config/nearest.h"
 #include "help.h"
+#include "results/provenance.h"
 #include "terminal.h"
 
 namespace slambench {
@@ -18,22 +21,45 @@ namespace {
 struct Command {
   const char* name;
   const char* sentence;
-  Action (*add)(CLI::App&);
+  std::function<Action(CLI::App&)> add;
 };
 
-constexpr Command commands[] = {
-    {"evaluate", "compare two trajectories: absolute trajectory and relative pose error",
-     add_evaluate},
-    {"info", "what a sequence has: frames, camera, axes, ground truth, suggestions", add_info},
-    {"list", "what there is: backends, maps, kernels, sequences, presets, parameters", add_list},
-};
+std::vector<Command> command_table(const std::string& command_line) {
+  return {
+      {"run", "run KinectFusion over a sequence: times, accuracy, a record",
+       [command_line](CLI::App& app) { return add_run(app, command_line); }},
+      {"evaluate", "compare two trajectories: absolute trajectory and relative pose error",
+       add_evaluate},
+      {"info", "what a sequence has: frames, camera, axes, ground truth, suggestions", add_info},
+      {"list", "what there is: backends, maps, kernels, layouts, presets, parameters", add_list},
+  };
+}
 
 constexpr const char* footer =
     "'slambench COMMAND --help' says more about each.\n"
     "Exit status: 0 ok, 1 failed or interrupted, 2 usage, 3 bad input,\n"
     "4 unavailable here, 5 a threshold was violated.";
 
-/// Long options with their dashes, then letters, of the command.
+/// The arguments as one would type them in a shell.
+std::string shell_text(int argc, char** argv) {
+  constexpr const char* plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:@%+";
+  std::string text;
+  for (int i = 0; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (i > 0) text += ' ';
+    if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos) {
+      text += argument;
+      continue;
+    }
+    text += '\'';
+    for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    text += '\'';
+  }
+  return text;
+}
+
+/// The long options of the command, with their dashes.
 std::vector<std::string> option_words(const CLI::App& command) {
   std::vector<std::string> words;
   for (const CLI::Option* option : command.get_options()) {
@@ -61,7 +87,7 @@ void reject_extras(const CLI::App& command) {
                 : ""));
 }
 
-void require_command(const CLI::App& app) {
+void require_command(const CLI::App& app, const std::vector<Command>& commands) {
   if (!app.get_subcommands().empty()) return;
   const auto extras = app.remaining();
   if (extras.empty()) throw UsageError("no command; 'slambench --help' lists them");
@@ -80,6 +106,8 @@ ExitStatus run(int argc, char** argv) {
   app.set_help_flag("-h,--help", "print this and end");
   app.footer(footer);
   app.allow_extras();
+  app.set_version_flag("--version", version_text(), "print version and commit and end");
+  const std::vector<Command> commands = command_table(shell_text(argc, argv));
   std::map<const CLI::App*, Action> actions;
   for (const Command& command : commands) {
     CLI::App* sub = app.add_subcommand(command.name, command.sentence);
@@ -92,10 +120,13 @@ ExitStatus run(int argc, char** argv) {
   } catch (const CLI::CallForHelp&) {
     print(app.help());
     return ExitStatus::ok;
+  } catch (const CLI::CallForVersion&) {
+    print(version_text() + "\n");
+    return ExitStatus::ok;
   } catch (const CLI::ParseError& error) {
     throw UsageError(error.what());
   }
-  require_command(app);
+  require_command(app, commands);
   const CLI::App* chosen = app.get_subcommands().front();
   reject_extras(*chosen);
   return actions.at(chosen)();

@@ -57,6 +57,7 @@ void ParameterOptions::add(CLI::App& command, const std::vector<ParameterList>& 
       CLI::Option* option = is_switch(parameter) ? command.add_flag(option_names(parameter))
                                                  : command.add_option(option_names(parameter));
       if (!is_switch(parameter)) option->expected(1);
+      option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
       option->type_name(std::visit(Placeholder{}, parameter.value));
       option->description(help_sentence(parameter));
       option->group(fmt::format("Parameters, table [{}] of a configuration file", list.group));

@@ -56,7 +56,11 @@ void print(std::string_view text) {
 void print_error(std::string_view text) { write_all(STDERR_FILENO, text); }
 
 bool error_is_terminal() { return is_terminal(STDERR_FILENO); }
-bool output_is_terminal() { return is_terminal(STDOUT_FILENO); }
+
+bool output_takes_colors() {
+  const char* no_color = std::getenv("NO_COLOR");
+  return is_terminal(STDOUT_FILENO) && (no_color == nullptr || *no_color == '\0');
+}
 
 int terminal_width() {
   winsize size{};

@@ -17,10 +17,12 @@ void print(std::string_view text);
 /// Writes to standard error, whatever becomes of it.
 void print_error(std::string_view text);
 
-/// Whether standard error (progress, messages) or standard output is a terminal that takes
-/// control sequences.
+/// Whether standard error is a terminal whose line can be redrawn.
 bool error_is_terminal();
-bool output_is_terminal();
+
+/// Whether standard output is a terminal that takes colours and the user has nothing against them
+/// (https://no-color.org).
+bool output_takes_colors();
 
 /// Columns of the terminal at standard error; 80 when unknown.
 int terminal_width();

@@ -41,6 +41,15 @@ std::vector<Size> pyramid_sizes(Size finest, std::size_t levels) {
   return sizes;
 }
 
+Volume make_volume(Backend& backend, MapKind map, const KinectFusionParameters& p) {
+  const auto& [x, y, z] = p.volume_resolution;
+  try {
+    return backend.make_volume(map, {x, y, z}, to_float3(p.volume_size_m));
+  } catch (const UnavailableError& error) {
+    throw UnavailableError(fmt::format("volume of {}x{}x{} voxels: {}", x, y, z, error.what()));
+  }
+}
+
 void require_kernels(const Backend& backend, MapKind map) {
   for (const KernelInfo& row : kernel_table()) {
     const bool optional = row.kernel == Kernel::acquire || row.kernel == Kernel::align;
@@ -88,9 +97,7 @@ KinectFusion::KinectFusion(Backend& backend, const KinectFusionParameters& param
   const StageScope scope(observer_, Stage::init);
   gaussian_ = backend_.make_image<float>({2 * p_.bilateral_radius_px + 1, 1});
   backend_.generate_gaussian(gaussian_, static_cast<float>(p_.bilateral_sigma_px));
-  volume_ = backend_.make_volume(
-      map, {p_.volume_resolution[0], p_.volume_resolution[1], p_.volume_resolution[2]},
-      to_float3(p_.volume_size_m));
+  volume_ = make_volume(backend_, map, p_);
   backend_.finish();
 }
 

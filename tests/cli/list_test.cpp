@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+
+// `slambench list` and the help as their user meets them.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "datasets/source.h"
+#include "kernels/kernel.h"
+#include "slam/kinect_fusion.h"
+#include "support/program.h"
+
+namespace slambench {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using Json = nlohmann::json;
+
+class ListTest : public ::testing::Test {
+ protected:
+  std::string output(const std::vector<std::string>& arguments) {
+    const testing::Outcome outcome = program_.run(arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    return outcome.out;
+  }
+  static void expect_80_columns(const std::string& text) {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
+  }
+
+  testing::Program program_{SLAMBENCH_PROGRAM};
+};
+
+TEST_F(ListTest, TellsEverythingThereIs) {
+  const std::string text = output({"list"});
+  expect_80_columns(text);
+  for (const KernelInfo& info : kernel_table()) {
+    EXPECT_THAT(text,
+                AllOf(HasSubstr(std::string(info.name)), HasSubstr(std::string(info.paper_name))));
+  }
+  for (const SourceEntry& entry : source_table()) {
+    EXPECT_THAT(text, HasSubstr(std::string(entry.layout)));
+  }
+  for (const char* word : {"serial", "grid", "slambench1", "fast"}) {
+    EXPECT_THAT(text, HasSubstr(word));
+  }
+}
+
+TEST_F(ListTest, TheSameAsJson) {
+  const Json json = Json::parse(output({"list", "--json"}));
+  EXPECT_EQ(json.at("kernels").size(), kernel_count);
+  EXPECT_EQ(json.at("layouts").size(), source_table().size());
+  EXPECT_EQ(json.at("backends").at(0).at("name"), "serial");
+  EXPECT_EQ(json.at("backends").at(0).at("available"), true);
+  EXPECT_EQ(json.at("parameters").at("kinectfusion").size(),
+            KinectFusionParameters().describe().parameters.size());
+}
+
+TEST_F(ListTest, EveryParameterIsAnOptionWithItsDefault) {
+  const std::string help = output({"run", "--help"});
+  const std::string list = output({"list", "--parameters"});
+  expect_80_columns(help);
+  expect_80_columns(list);
+  const Json json = Json::parse(output({"list", "--json"}));
+  std::set<std::string> letters;
+  for (const auto& group : json.at("parameters")) {
+    for (const auto& parameter : group) {
+      const std::string option = "--" + parameter.at("name").get<std::string>();
+      EXPECT_THAT(help, HasSubstr(option));
+      EXPECT_THAT(list, HasSubstr(option));
+      if (parameter.contains("letter")) letters.insert(parameter.at("letter"));
+    }
+  }
+  EXPECT_EQ(letters, (std::set<std::string>{"c", "d", "f", "k", "l", "m", "o", "p", "q", "r", "s",
+                                            "t", "v", "y", "z"}));
+  EXPECT_THAT(help, HasSubstr("-i, --input-file"));
+}
+
+TEST_F(ListTest, TheDocumentOfParametersIsUpToDate) {
+  EXPECT_EQ(output({"list", "--parameters", "--markdown"}),
+            testing::Program::contents(SLAMBENCH_SOURCE_DIR "/docs/parameters.md"))
+      << "renew it: slambench list --parameters --markdown > docs/parameters.md";
+}
+
+TEST_F(ListTest, HelpAndVersionGoToStandardOutput) {
+  EXPECT_THAT(output({"--help"}), StartsWith("Usage: slambench COMMAND"));
+  EXPECT_THAT(output({"run", "-h"}), StartsWith("Usage: slambench run [SEQUENCE] [OPTIONS]"));
+  EXPECT_THAT(output({"--version"}), HasSubstr("0.1.0"));
+}
+
+TEST_F(ListTest, NothingIsPrintedToNowhere) {
+  program_.set_output("/dev/full");
+  const testing::Outcome outcome = program_.run({"list"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.err, "slambench: standard output: No space left on device\n");
+}
+
+}  // namespace
+}  // namespace slambench

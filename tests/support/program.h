@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/types.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "support/temporary_folder.h"
+
+namespace slambench::testing {
+
+/// How a program ended; 128 + the signal's number when one ended it.
+struct Outcome {
+  int status = -1;
+  std::string out, err;
+};
+
+/// The program under test, run in a folder of its own, which is its cache and holds its results.
+class Program {
+ public:
+  explicit Program(std::string path) : path_(std::move(path)) {
+    environment_["XDG_CACHE_HOME"] = folder_.path("cache");
+    environment_["TERM"] = "xterm";
+  }
+
+  const TemporaryFolder& folder() const { return folder_; }
+  void set_environment(const std::string& name, const std::string& value) {
+    environment_[name] = value;
+  }
+  /// Standard output goes to this file from now on; "" closes it.
+  void set_output(const std::string& file) { output_ = file; }
+
+  pid_t start(const std::vector<std::string>& arguments) const {
+    const pid_t child = ::fork();
+    if (child == 0) execute(arguments);
+    return child;
+  }
+
+  Outcome wait(pid_t child) const {
+    int ended = 0;
+    if (::waitpid(child, &ended, 0) != child) return {};
+    const int status = WIFEXITED(ended) ? WEXITSTATUS(ended) : 128 + WTERMSIG(ended);
+    return {status, contents(folder_.path("stdout")), contents(folder_.path("stderr"))};
+  }
+
+  Outcome run(const std::vector<std::string>& arguments) const { return wait(start(arguments)); }
+
+  static std::string contents(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+ private:
+  [[noreturn]] void execute(const std::vector<std::string>& arguments) const {
+    constexpr int mode = 0600;
+    constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC;
+    const std::string out = output_ == "-" ? folder_.path("stdout") : output_;
+    if (out.empty()) {
+      ::close(STDOUT_FILENO);
+    } else {
+      ::dup2(::open(out.c_str(), flags, mode), STDOUT_FILENO);
+    }
+    ::dup2(::open(folder_.path("stderr").c_str(), flags, mode), STDERR_FILENO);
+    for (const auto& [name, value] : environment_) ::setenv(name.c_str(), value.c_str(), 1);
+    if (::chdir(folder_.path().c_str()) != 0) ::_exit(126);
+    std::vector<char*> words = {const_cast<char*>(path_.c_str())};
+    for (const auto& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+    words.push_back(nullptr);
+    ::execv(path_.c_str(), words.data());
+    ::_exit(127);
+  }
+
+  std::string path_;
+  TemporaryFolder folder_;
+  std::map<std::string, std::string> environment_;
+  std::string output_ = "-";  ///< "-": kept for Outcome::out
+};
+
+}  // namespace slambench::testing
