@@ -135,11 +135,13 @@ TEST(AbsoluteError, FirstPoseMakesTheFirstPosesEqual) {
 TEST(AbsoluteError, RejectsWhatDoesNotDetermineTheRotation) {
   const auto line = positions_each_second({{0, 0, 0}, {0.1, 0.2, 0.3}, {0.2, 0.4, 0.6}});
   const auto point = positions_each_second({{0.1, 0.7, 0.3}, {0.1, 0.7, 0.3}, {0.1, 0.7, 0.3}});
+  const auto nearly = positions_each_second({{0, 0, 0}, {0.5, 1e-8, 0}, {1, 0, 1e-8}});
   const auto two = positions_each_second({{0, 0, 0}, {1, 0, 0}});
   const auto triangle = positions_each_second({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   for (const auto alignment : {Alignment::se3, Alignment::sim3}) {
     EXPECT_THROW(align(line, line, alignment), InputError);
     EXPECT_THROW(align(line, triangle, alignment), InputError);
+    EXPECT_THROW(align(nearly, nearly, alignment), InputError);
     EXPECT_THROW(align(point, triangle, alignment), InputError);
     EXPECT_THROW(align(triangle, point, alignment), InputError);
     EXPECT_THROW(align(point, point, alignment), InputError);

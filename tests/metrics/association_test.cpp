@@ -111,6 +111,13 @@ TEST(EvoAssociation, StartsFromTheShorterOne) {
   EXPECT_THAT(associate(estimate, truth, Association::evo, 0.01), ElementsAre(Pair(1, 0)));
 }
 
+TEST(EvoAssociation, OfTwoAsLongStartsFromTheEstimate) {
+  const auto estimate = at_times({1.000, 1.004});
+  const auto truth = at_times({1.003, 7});
+  EXPECT_THAT(associate(estimate, truth, Association::evo, 0.01),
+              ElementsAre(Pair(0, 0), Pair(1, 0)));
+}
+
 TEST(EvoAssociation, OfTwoAsNearTakesTheEarlier) {
   EXPECT_THAT(associate(at_times({1}), at_times({0.5, 1.5}), Association::evo, 1),
               ElementsAre(Pair(0, 0)));

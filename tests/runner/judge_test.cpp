@@ -138,6 +138,21 @@ TEST(Judge, FramesWithoutARowHaveNoError) {
   EXPECT_EQ(record.frames[41].error_se3_m, std::nullopt);
 }
 
+TEST(Judge, OfTwoRowsAtOneFrameTheFirstIsItsError) {
+  const auto estimate = winding_path(10, 30);
+  Record record = record_of(estimate);
+  Trajectory truth = {estimate[0], estimate[5], estimate[5], estimate[9]};
+  for (auto& pose : truth) {
+    pose.T_world_camera = estimate[0].T_world_camera.inverse() * pose.T_world_camera;
+  }
+  truth[1].time_s -= 0.004;
+  truth[2].time_s += 0.004;
+  truth[2].T_world_camera = pose_at(0, 0, 3) * truth[2].T_world_camera;
+  judge(sequence_of(truth), &record);
+  EXPECT_EQ(record.over_processed->matched, 4u);
+  EXPECT_NEAR(record.frames[5].error_first_pose_m.value(), 0, 1e-9);
+}
+
 TEST(Judge, DroppedFramesHoldTheLastPoseOverAll) {
   Trajectory truth;
   for (int i = 0; i < 6; ++i) truth.push_back({i / 30.0, pose_at(i, i * i, 0)});
