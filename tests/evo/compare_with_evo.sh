@@ -8,4 +8,4 @@ if ! "$python" -c 'import evo' 2>/dev/null; then
   echo "skipped: $python has no package evo (pip install evo; SLAMBENCH_EVO_PYTHON names its python)"
   exit 77
 fi
-exec "$python" "$(dirname "$0")/compare_with_evo.py" "$@"
+exec "$python" "$(dirname "$0")/../../scripts/check_with_evo.py" "$@"

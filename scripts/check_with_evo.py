@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: The SLAMBench authors
-"""Compares `slambench evaluate` with evo: compare_with_evo.py SLAMBENCH
+"""Compares `slambench evaluate` with evo: check_with_evo.py SLAMBENCH
 
 On trajectories made here, and on the public ones where SLAMBENCH_DATA names their folder.
 """
