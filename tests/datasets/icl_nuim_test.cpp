@@ -351,7 +351,8 @@ TEST(IclNuimTum, SuggestsNothingOfTheLivingRoomForOthers) {
   std::filesystem::rename(folder.path("kt/livingRoom3.gt.freiburg"),
                           folder.path("kt/traj3.gt.freiburg"));
   const auto volume = [](const std::string& folder_of) {
-    for (const auto& [name, value] : open_source(folder_of, {})->info().suggested) {
+    const auto suggested = open_source(folder_of, {})->info().suggested;
+    for (const auto& [name, value] : suggested) {
       if (name == "init-pose") return value;
     }
     return std::string();
