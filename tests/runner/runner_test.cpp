@@ -332,21 +332,21 @@ TEST_F(RunnerTest, GroundTruthThatMeetsNoFrameIsAnError) {
 
 TEST(RunParameters, DescribesItself) {
   RunParameters parameters;
-  const ParameterList list = parameters.describe();
-  EXPECT_EQ(list.group, "run");
+  const std::vector<ParameterList> lists = {parameters.describe()};
+  EXPECT_EQ(lists[0].group, "run");
   for (const auto& [name, text] : {std::pair{"frames", "12"}, std::pair{"real-time", "true"},
                                    std::pair{"fps", "29.5"}, std::pair{"warmup-frames", "0"}}) {
-    const Parameter* parameter = find({list}, name);
+    const Parameter* parameter = find(lists, name);
     ASSERT_NE(parameter, nullptr) << name;
     set_from_text(*parameter, text);
   }
-  EXPECT_EQ(find({list}, "fps")->flag, 'f');
+  EXPECT_EQ(find(lists, "fps")->flag, 'f');
   EXPECT_EQ(parameters.frames, 12);
   EXPECT_TRUE(parameters.real_time);
   EXPECT_EQ(parameters.fps, 29.5);
   EXPECT_EQ(parameters.warmup_frames, 0);
-  EXPECT_THROW(set_from_text(*find({list}, "frames"), "-1"), UsageError);
-  EXPECT_THROW(set_from_text(*find({list}, "fps"), "-1"), UsageError);
+  EXPECT_THROW(set_from_text(*find(lists, "frames"), "-1"), UsageError);
+  EXPECT_THROW(set_from_text(*find(lists, "fps"), "-1"), UsageError);
 }
 
 }  // namespace
