@@ -19,5 +19,6 @@ Action add_run(CLI::App& command, const std::string& command_line);
 Action add_evaluate(CLI::App& command);
 Action add_info(CLI::App& command);
 Action add_list(CLI::App& command);
+Action add_verify(CLI::App& command);
 
 }  // namespace slambench

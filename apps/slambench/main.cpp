@@ -32,6 +32,7 @@ std::vector<Command> command_table(const std::string& command_line) {
        add_evaluate},
       {"info", "what a sequence has: frames, camera, axes, ground truth, suggestions", add_info},
       {"list", "what there is: backends, maps, kernels, layouts, presets, parameters", add_list},
+      {"verify", "whether the backends compute what the reference computes", add_verify},
   };
 }
 

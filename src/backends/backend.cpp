@@ -150,6 +150,10 @@ Reduction Backend::reduce(const DeviceImage<TrackData>& rows) {
 
 Twist Backend::solve(const Reduction& reduction, double condition) {
   const KernelScope scope(observer_, Kernel::solve);
+  return do_solve(reduction, condition);
+}
+
+Twist Backend::do_solve(const Reduction& reduction, double condition) {
   const Matrix6 jt_j = normal_matrix(reduction);
   const Vector6 jt_error = Eigen::Map<const Vector6>(reduction.jt_error);
   Twist twist;

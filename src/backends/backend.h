@@ -37,7 +37,9 @@ class Storage {
   virtual ~Storage() = default;
 };
 
-/// An image in a backend's memory. Made by Backend::make_image, usable with that backend only.
+/// An image in a backend's memory. Made by Backend::make_image, usable with that backend only. The
+/// pixels lie row by row from the start of the storage, which may be larger than `size` says; then
+/// no kernel touches the rest.
 template <class T>
 struct DeviceImage {
   Size size;
@@ -191,6 +193,8 @@ class Backend {
   virtual void do_render_track(DeviceImage<Rgba8>& image, const DeviceImage<TrackData>& rows) = 0;
   virtual void do_render_volume(DeviceImage<Rgba8>& image, const Volume& volume,
                                 const RaycastParameters& view, const ShadeParameters& shading) = 0;
+  /// In double precision on the host, unless a backend has a reason.
+  virtual Twist do_solve(const Reduction& reduction, double condition);
   /// The plain loop over track, reduce and solve; reports those, not `align`.
   virtual AlignResult do_align(const AlignInput& input, double condition);
   /// Whether do_align is the backend's own, and is to be reported as `align`.

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include <fmt/format.h>
+
+#include <tuple>
+
+#include "slam/kinect_fusion.h"
+#include "verify/checks.h"
+#include "verify/trial.h"
+
+namespace slambench {
+namespace {
+
+using Track = std::tuple<std::vector<Pose>, std::vector<int>>;
+
+Track run_pipeline(Workbench& bench, const Recording& recording) {
+  KinectFusionParameters parameters = recording.parameters;
+  parameters.map = name(bench.map());
+  KinectFusion system(bench.backend(), parameters, recording.frames[0].depth.size(),
+                      recording.camera, recording.units_per_m, nullptr);
+  Track track;
+  for (const Frame& frame : recording.frames) {
+    const FrameResult result = system.process(frame);
+    system.render();
+    std::get<0>(track).push_back(result.T_start_camera);
+    std::get<1>(track).push_back(result.tracked ? 1 : 0);
+  }
+  return track;
+}
+
+void compare_tracks(Trial& trial, const Track& expected, const Track& found) {
+  const auto& [poses, tracked] = expected;
+  const auto& [found_poses, found_tracked] = found;
+  int differ = 0;
+  double translation_m = 0, rotation_rad = 0;
+  std::string translation_where, rotation_where;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (tracked[i] != found_tracked[i]) ++differ;
+    const Pose difference = poses[i].inverse() * found_poses[i];
+    const double t = difference.translation().norm();
+    const double r = Eigen::AngleAxisd(difference.linear()).angle();
+    if (!(t <= translation_m)) {
+      translation_m = t;
+      translation_where = fmt::format("frame {}", i);
+    }
+    if (!(r <= rotation_rad)) {
+      rotation_rad = r;
+      rotation_where = fmt::format("frame {}", i);
+    }
+  }
+  trial.at_most("tracked frames that differ", differ);
+  trial.at_most("translation, m", translation_m, translation_where);
+  trial.at_most("rotation, rad", rotation_rad, rotation_where);
+}
+
+}  // namespace
+
+void check_pipeline(Trial& trial) {
+  for (const Recording& recording : trial.recordings()) {
+    trial.add(
+        fmt::format("{}, {} frames", recording.name, recording.frames.size()),
+        [&](Workbench& bench) { return run_pipeline(bench, recording); },
+        [&](const Track& expected, const Track& found) { compare_tracks(trial, expected, found); });
+  }
+}
+
+}  // namespace slambench
