@@ -262,6 +262,16 @@ TEST_F(Aligning, EndsALevelWhenTheStepIsShort) {
   EXPECT_EQ(at_once.iterations, std::vector<int>{1});
 }
 
+/// The step itself decides, and only for its own level.
+TEST_F(Aligning, ComparesTheStepsNormWithTheLimit) {
+  see(motion_, 2);
+  const AlignResult first = backend_->align(input({0, 1}, 0), 1e6);
+  const double step = se3_log(first.T_volume_camera * T_scene_model_.inverse()).norm();
+  EXPECT_EQ(backend_->align(input({0, 2}, 1.001 * step), 1e6).iterations, (std::vector<int>{0, 1}));
+  EXPECT_EQ(backend_->align(input({0, 2}, 0.999 * step), 1e6).iterations, (std::vector<int>{0, 2}));
+  EXPECT_EQ(backend_->align(input({3, 3}, 1), 1e6).iterations, (std::vector<int>{1, 1}));
+}
+
 TEST_F(Aligning, StepsBeforeItStops) {
   see(motion_, 1);
   const AlignResult result = backend_->align(input({1}, 1), 1e6);
@@ -325,6 +335,9 @@ TEST_F(Aligning, RefusesLevelsThatDoNotFit) {
   EXPECT_THROW(backend_->align(broken, 1e6), std::invalid_argument);
   broken = input({1, 1}, 0);
   broken.model_normals = nullptr;
+  EXPECT_THROW(backend_->align(broken, 1e6), std::invalid_argument);
+  broken = input({1, 1}, 0);
+  broken.vertices.pop_back();
   EXPECT_THROW(backend_->align(broken, 1e6), std::invalid_argument);
   broken = input({1, 1}, 0);
   broken.normals.pop_back();

@@ -253,7 +253,7 @@ TEST_F(Raycast, RefusesMapsOfDifferentSizes) {
 TEST_F(Raycast, RenderVolumeShadesWhatRaysMeet) {
   fill(testing::Scene().add_plane({0, 0, -1}, {1, 1, 1.5}), {32, 32, 32}, 2);
   const RaycastParameters p = parameters();
-  const ShadeParameters shading{{1, 1, -1}, 0.1f};
+  const ShadeParameters shading{{1, 1, 0.5f}, 0.05f};
   auto picture = backend_->make_image<Rgba8>(view);
   backend_->render_volume(picture, volume_, p, shading);
   const Image<Rgba8> found = downloaded(*backend_, picture);
@@ -266,8 +266,8 @@ TEST_F(Raycast, RenderVolumeShadesWhatRaysMeet) {
         continue;
       }
       ++lit;
-      const double lambert = 2.5 / (Eigen::Vector3d(1, 1, -1) - point).norm();
-      const double grey = std::min(1.0, lambert + 0.1) * 255;
+      const double lambert = 1 / (Eigen::Vector3d(1, 1, 0.5) - point).norm();
+      const double grey = std::min(1.0, lambert + 0.05) * 255;
       EXPECT_NEAR(found(x, y).r, grey, 1.5) << x << "," << y;
       EXPECT_EQ(found(x, y), (Rgba8{found(x, y).r, found(x, y).r, found(x, y).r, 255}));
     }

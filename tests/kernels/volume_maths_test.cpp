@@ -115,6 +115,12 @@ TEST_F(IntegrateVoxel, TruncatesInFreeSpaceAndStopsBehindTheBand) {
   EXPECT_EQ(voxel_, (Voxel{-32700, 1}));
 }
 
+TEST_F(IntegrateVoxel, CountsFreeSpaceAsOneBandHoweverFar) {
+  voxel_ = {-16383, 1};
+  EXPECT_TRUE(measure(60.0f));  // (-0.5 + 1) / 2: 8191.5
+  EXPECT_EQ(voxel_, (Voxel{8191, 2}));
+}
+
 TEST_F(IntegrateVoxel, CapsTheWeight) {
   voxel_ = {32766, 99};
   EXPECT_TRUE(measure(2.5f));
@@ -404,23 +410,27 @@ TEST_F(FindSurface, InterpolatesBetweenTheLastTwoSamples) {
   EXPECT_NEAR(hit_.z, 2.5 - 0.5 * 0.75, 1e-5);
 }
 
-/// A slab of a quarter metre hides between two samples half a metre apart.
-ProfileMap thin_slab() { return ProfileMap().set(2.6, 2.9, -1); }
+/// Negative around 2.8125 alone: neither steps of half a metre from 0.5 m nor from 1.125 m see it.
+ProfileMap thin_slab() { return ProfileMap().set(2.8, 2.9, -1); }
 
 TEST_F(FindSurface, TakesLargeStepsFarFromSurfaces) {
+  parameters_.small_step_m = 0.0625f;
   EXPECT_FALSE(find(thin_slab()));
-  parameters_.large_step_m = 0.125f;
+  parameters_.large_step_m = 0.0625f;
   EXPECT_TRUE(find(thin_slab()));
 }
 
+/// A dip at 1 m, then free space again.
 TEST_F(FindSurface, TakesSmallStepsForGoodOnceNearASurface) {
+  parameters_.small_step_m = 0.0625f;
   ASSERT_TRUE(find(thin_slab().set(0.9, 1.1, 0.7)));
-  EXPECT_NEAR(hit_.z, 2.625, 1e-4);  // samples at 2.625 - h with 1/8 between: a linear crossing
+  EXPECT_NEAR(hit_.z, 2.75, 1e-4);
   parameters_.small_step_m = 0.5f;
   EXPECT_FALSE(find(thin_slab().set(0.9, 1.1, 0.7)));
 }
 
 TEST_F(FindSurface, GoesOnInLargeStepsAtTheLimitItself) {
+  parameters_.small_step_m = 0.0625f;
   const ProfileMap map = thin_slab().set(0.9, 1.1, 0.7);
   const float dip = interpolate(map, {1, 1, 1});
   parameters_.slow_below = dip;

@@ -161,6 +161,13 @@ TEST_F(Pipeline, IntegratesAsConfigured) {
   expect_translation(backend_.integrated->T_camera_volume, -0.5, -1.5, -3);
 }
 
+TEST_F(Pipeline, IntegratesTheUnfilteredDepth) {
+  KinectFusion fusion = make();
+  process(fusion);
+  ASSERT_NE(backend_.integrated_depth, nullptr);
+  EXPECT_EQ(backend_.integrated_depth, backend_.metric_depth);
+}
+
 TEST_F(Pipeline, IntegratesAtTheTrackedPose) {
   KinectFusion fusion = make();
   process_fifth(fusion);

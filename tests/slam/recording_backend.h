@@ -29,6 +29,8 @@ class RecordingBackend final : public HostBackend {
   std::vector<Intrinsics> level_cameras;
   std::optional<AlignInput> align_input;  ///< its pointers are the pipeline's
   double condition = 0;
+  /// What mm2meters wrote and what integrate read.
+  const DeviceImage<float>*metric_depth = nullptr, *integrated_depth = nullptr;
   Volume made;  ///< resolution and size only
   std::optional<IntegrateParameters> integrated;
   std::optional<RaycastParameters> raycasted, rendered;
@@ -48,7 +50,9 @@ class RecordingBackend final : public HostBackend {
     gaussian_sigma_px = sigma_px;
   }
   void do_init_volume(Volume&) override {}
-  void do_mm2meters(DeviceImage<float>&, const DeviceImage<std::uint16_t>&, float units) override {
+  void do_mm2meters(DeviceImage<float>& depth_m, const DeviceImage<std::uint16_t>&,
+                    float units) override {
+    metric_depth = &depth_m;
     units_per_m = units;
   }
   void do_bilateral_filter(DeviceImage<float>&, const DeviceImage<float>&,
@@ -69,8 +73,9 @@ class RecordingBackend final : public HostBackend {
                 const DeviceImage<Float3>&, const DeviceImage<Float3>&,
                 const TrackParameters&) override {}
   Reduction do_reduce(const DeviceImage<TrackData>&) override { return {}; }
-  void do_integrate(Volume&, const DeviceImage<float>&,
+  void do_integrate(Volume&, const DeviceImage<float>& depth_m,
                     const IntegrateParameters& parameters) override {
+    integrated_depth = &depth_m;
     ++integrations;
     integrated = parameters;
   }
