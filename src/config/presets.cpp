@@ -29,7 +29,7 @@ std::vector<Preset> preset_table() {
        {{"backend", quickest_backend()}}},
       {"slambench1",
        "the published behaviour: flat volume, the paper's kernels one by one",
-       {{"map", "grid"}}},
+       {{"map", "grid"}, {"icl-nuim-camera", "slambench1"}}},
   };
 }
 

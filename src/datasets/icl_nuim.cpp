@@ -148,7 +148,7 @@ IclNuimSource::IclNuimSource(const std::string& folder, const SourceParameters& 
   info_.name = sequence_name(folder);
   info_.layout = "icl-nuim";
   info_.path = folder;
-  info_.camera = icl_nuim_camera;
+  info_.camera = default_icl_nuim_camera(parameters);
   info_.units_per_m = 1;  // of the text
   set_axes_y_up(&info_);
   const std::string first = files_.at(0).stem + ".depth";

@@ -14,6 +14,11 @@ namespace slambench {
 /// The camera of ICL-NUIM (Handa et al., ICRA 2014). It is published with fy = -480, because its y
 /// axis points up; this is the same camera with y down.
 inline constexpr Intrinsics icl_nuim_camera = {481.2F, 480, 319.5F, 239.5F};
+/// The one that SLAMBench 1's published commands give for the same images, half a pixel off.
+inline constexpr Intrinsics slambench1_icl_nuim_camera = {481.2F, 480, 320, 240};
+
+/// The one of the two that the user means.
+Intrinsics default_icl_nuim_camera(const SourceParameters& parameters);
 
 /// The ground-truth file *.gt.freiburg in a folder of ICL-NUIM, "" for none; with several the first
 /// by name, and a note.

@@ -54,6 +54,10 @@ std::vector<ListedImage> images_of(const std::string& folder, const std::string&
 
 }  // namespace
 
+Intrinsics default_icl_nuim_camera(const SourceParameters& parameters) {
+  return parameters.icl_nuim_camera == "slambench1" ? slambench1_icl_nuim_camera : icl_nuim_camera;
+}
+
 std::string icl_nuim_ground_truth(const std::string& folder, std::vector<std::string>* notes) {
   auto names = folder_entries(folder);
   std::erase_if(names, [](const std::string& name) { return !ends_as_ground_truth(name); });
@@ -81,7 +85,7 @@ std::unique_ptr<Source> open_icl_nuim_tum(const std::string& sequence,
   info.layout = "icl-nuim-tum";
   info.path = sequence;
   info.units_per_m = 5000;
-  info.camera = icl_nuim_camera;
+  info.camera = default_icl_nuim_camera(parameters);
   set_axes_y_up(&info);
   const std::string list = list_of(sequence);
   if (list.empty()) {

@@ -59,6 +59,15 @@ ParameterList SourceParameters::describe() {
               {"camera", 'k', "px", &camera, -huge, huge,
                "intrinsics fx,fy,cx,cy at full input resolution instead of the sequence's own; a "
                "negative fy says that the camera's y axis points up"},
+              {"icl-nuim-camera",
+               0,
+               "",
+               &icl_nuim_camera,
+               0,
+               0,
+               "camera of ICL-NUIM's images: the dataset's own, or the one of SLAMBench 1's "
+               "published commands, half a pixel off",
+               {"dataset", "slambench1"}},
               {"depth-scale", 0, "1/m", &depth_scale, 1e-3, huge,
                "units per metre of the depth in the files, instead of the layout's own"},
               {"ground-truth", 0, "", &ground_truth, 0, 0,

@@ -21,6 +21,7 @@ namespace slambench {
 /// What a user can say about any source.
 struct SourceParameters {
   std::optional<std::array<double, 4>> camera;  ///< overrides the source's fx,fy,cx,cy
+  std::string icl_nuim_camera = "dataset";      ///< or "slambench1"
   std::optional<double> depth_scale;            ///< overrides the file's depth units per metre
   std::string ground_truth;                     ///< file that overrides the source's own
   bool noise = false;                           ///< living-room only

@@ -371,6 +371,20 @@ TEST(IclNuimTum, TakesTheFirstOfSeveralGroundTruths) {
   EXPECT_THAT(source->info().notes, Contains(HasSubstr("the first, livingRoom0.gt.freiburg")));
 }
 
+TEST(IclNuim, TakesTheCameraOfSlambench1WhenAsked) {
+  const TemporaryFolder folder, other_folder;
+  folder.write("kt/scene_00_0000.depth", wall(2, {640, 480}));
+  const std::string native = folder.path("kt");
+  const std::string tum = write_tum(other_folder);
+  SourceParameters parameters;
+  parameters.icl_nuim_camera = "slambench1";
+  EXPECT_EQ(open_source(native, parameters)->info().camera, (Intrinsics{481.2F, 480, 320, 240}));
+  const auto source = open_source(tum, parameters);
+  const float scale = static_cast<float>(source->info().depth_size.width) / 640;
+  EXPECT_EQ(source->info().camera.cx, 320 * scale);
+  EXPECT_EQ(source->info().camera.cy, 240 * scale);
+}
+
 TEST(IclNuimTum, RealSequence) {
   const char* const data = std::getenv("SLAMBENCH_DATA");
   if (data == nullptr) GTEST_SKIP() << "SLAMBENCH_DATA is not set";
