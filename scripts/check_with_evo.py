@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: The SLAMBench authors
-"""Compares `slambench evaluate` with evo: check_with_evo.py SLAMBENCH
+"""Compares the figures of `slambench evaluate` and `slambench run` with evo:
+check_with_evo.py SLAMBENCH
 
-On trajectories made here, and on the public ones where SLAMBENCH_DATA names their folder.
+On trajectories made here, and, where SLAMBENCH_DATA names the folder of the public ones, on those
+and on short runs.
 """
 
 import copy
@@ -122,12 +124,41 @@ def compare(program, estimate_file, truth_file, comparison):
                                 tolerance)
 
 
+# Small images and volumes: what is compared is the judging.
+RUNS = [
+    ("icl_nuim_lr_kt3_400", "--frames", "40", "-c", "4", "-v", "96"),
+    ("tum_fr1_xyz_300", "--frames", "40", "-c", "4", "-v", "96"),
+]
+
+
+def compare_run(program, folder, run, comparison):
+    """The figures in a run's record with those of the trajectory it wrote."""
+    sequence = os.path.join(os.environ["SLAMBENCH_DATA"], run[0])
+    out = os.path.join(folder, run[0])
+    subprocess.run([program, "run", sequence, *run[1:], "--quiet", "--out", out], check=True)
+    with open(os.path.join(out, "record.json"), encoding="utf-8") as file:
+        record = json.load(file)
+    accuracy = record["accuracy"]["over_processed"]
+    truth = file_interface.read_tum_trajectory_file(record["sequence"]["ground_truth_file"])
+    estimate = file_interface.read_tum_trajectory_file(os.path.join(out, "trajectory.tum"))
+    truth, estimate = sync.associate_trajectories(truth, estimate, max_diff=0.01)
+    comparison.same(f"{run[0]}: pairs", accuracy["matched"], truth.num_poses, 0.5)
+    for alignment in ("none", "first-pose", "se3", "sim3"):
+        expected = evo_ape(truth, estimate, alignment)
+        found = accuracy["ate_m"][alignment.replace("-", "_")]
+        for figure in FIGURES:
+            comparison.same(f"{run[0]}: ATE {alignment} {figure}", found[figure],
+                            expected[figure], TOLERANCE_M)
+
+
 def main():
     program = sys.argv[1]
     comparison = Comparison()
     with tempfile.TemporaryDirectory() as folder:
         for estimate, truth in write_example(folder) + public_examples():
             compare(program, estimate, truth, comparison)
+        for run in RUNS if "SLAMBENCH_DATA" in os.environ else []:
+            compare_run(program, folder, run, comparison)
     for failure in comparison.failures:
         print(failure)
     print(f"{comparison.count} figures compared, {len(comparison.failures)} differ; the largest "

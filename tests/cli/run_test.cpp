@@ -52,14 +52,7 @@ class RunTest : public ::testing::Test {
     return {};
   }
 
-  /// A run that takes milliseconds.
-  Arguments small(const Arguments& more = {}) const {
-    return Arguments{"run", "small.raw",   "-k",    "60,60,31.5,23.5",
-                     "-v",  "32",          "-s",    "3",
-                     "-p",  "0.5,0.5,0.1", "-y",    "4,3",
-                     "-c",  "1",           "--out", "out"} +
-           more;
-  }
+  static Arguments small(const Arguments& more = {}) { return testing::small_run() + more; }
 
   testing::Outcome run(const Arguments& arguments) { return program_.run(arguments); }
 

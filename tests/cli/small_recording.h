@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/image.h"
 
@@ -39,6 +40,13 @@ inline std::string small_raw(int frames) {
   std::string all;
   for (int i = 0; i < frames; ++i) all += frame;
   return all;
+}
+
+/// Arguments of a run over such a recording that takes milliseconds and tracks.
+inline std::vector<std::string> small_run() {
+  return {
+      "run", "small.raw", "-k", "60,60,31.5,23.5", "-v", "32", "-s", "3", "-p", "0.5,0.5,0.1", "-y",
+      "4,3", "-c",        "1",  "--out",           "out"};
 }
 
 }  // namespace slambench::testing

@@ -41,6 +41,9 @@ class Program {
   /// Standard output goes to this file from now on; "" closes it.
   void set_output(const std::string& file) { output_ = file; }
 
+  /// Standard error goes to this file from now on, and is not in Outcome::err.
+  void set_error(const std::string& file) { error_ = file; }
+
   pid_t start(const std::vector<std::string>& arguments) const {
     const pid_t child = ::fork();
     if (child == 0) execute(arguments);
@@ -64,14 +67,15 @@ class Program {
  private:
   [[noreturn]] void execute(const std::vector<std::string>& arguments) const {
     constexpr int mode = 0600;
-    constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC;
+    constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOCTTY;
     const std::string out = output_ == "-" ? folder_.path("stdout") : output_;
     if (out.empty()) {
       ::close(STDOUT_FILENO);
     } else {
       ::dup2(::open(out.c_str(), flags, mode), STDOUT_FILENO);
     }
-    ::dup2(::open(folder_.path("stderr").c_str(), flags, mode), STDERR_FILENO);
+    ::dup2(::open(error_.empty() ? folder_.path("stderr").c_str() : error_.c_str(), flags, mode),
+           STDERR_FILENO);
     for (const auto& [name, value] : environment_) ::setenv(name.c_str(), value.c_str(), 1);
     if (::chdir(folder_.path().c_str()) != 0) ::_exit(126);
     std::vector<char*> words = {const_cast<char*>(path_.c_str())};
@@ -85,6 +89,7 @@ class Program {
   TemporaryFolder folder_;
   std::map<std::string, std::string> environment_;
   std::string output_ = "-";  ///< "-": kept for Outcome::out
+  std::string error_;         ///< empty: kept for Outcome::err
 };
 
 }  // namespace slambench::testing

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <sstream>
+
+#include "cli/small_recording.h"
+#include "slambench/help.h"
+#include "slambench/progress.h"
+#include "support/program.h"
+
+namespace slambench {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+TEST(ProgressLine, FitsTheTerminal) {
+  EXPECT_EQ(progress_line("room", "frames", 5, 10, 2, "error 3.1 mm", 200),
+            "room [###############...............] 5/10 frames, 2.5/s, error 3.1 mm");
+  EXPECT_EQ(progress_line("room", "frames", 5, 10, 0, "", 40),
+            "room [##########..........] 5/10 frames");
+  EXPECT_EQ(progress_line("room", "frames", 10, 10, 1, "", 200),
+            "room [##############################] 10/10 frames, 10.0/s");
+  EXPECT_EQ(progress_line("room", "frames", 5, 10, 2, "", 20), "room 5/10 frames, 2");
+  EXPECT_EQ(progress_line("room", "frames", 0, 0, 1, "", 200),
+            "room [..............................] 0/0 frames, 0.0/s");
+  for (int width = 0; width < 100; ++width) {
+    EXPECT_LE(progress_line("a", "b", 1, 3, 1, "c", width).size(), std::max(width - 1, 0));
+  }
+}
+
+TEST(Wrapped, BreaksBetweenWords) {
+  EXPECT_EQ(wrapped("one two three", 7, 2), "one two\n  three");
+  EXPECT_EQ(wrapped("one  two", 3, 1), "one\n two");
+  EXPECT_EQ(wrapped("unbreakable a", 4, 0), "unbreakable\na");
+  EXPECT_EQ(wrapped("", 4, 0), "");
+}
+
+/// Runs the program with standard error at a terminal of its own; returns what appears there.
+class TerminalTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    terminal_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
+    if (terminal_ < 0 || ::grantpt(terminal_) != 0 || ::unlockpt(terminal_) != 0) {
+      GTEST_SKIP() << "no pseudo-terminal here";
+    }
+    program_.folder().write("small.raw", testing::small_raw(8));
+    program_.set_error(::ptsname(terminal_));
+  }
+  void TearDown() override { ::close(terminal_); }
+
+  std::string shown(const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = testing::small_run();
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(program_.run(arguments).status, 0);
+    std::string text(65536, '\0');
+    const ssize_t count = ::read(terminal_, text.data(), text.size());
+    return count > 0 ? text.substr(0, static_cast<std::size_t>(count)) : "";
+  }
+
+  testing::Program program_{SLAMBENCH_PROGRAM};
+  int terminal_ = -1;
+};
+
+TEST_F(TerminalTest, ShowsProgressAndRemovesIt) {
+  const std::string text = shown({});
+  EXPECT_THAT(text, AllOf(HasSubstr("small ["), HasSubstr("8/8 frames")));
+  EXPECT_TRUE(text.ends_with("\r\033[K")) << "the line is cleared at the end";
+}
+
+TEST_F(TerminalTest, ShowsNothingWhenNotWanted) {
+  EXPECT_THAT(shown({"--quiet"}), IsEmpty());
+  EXPECT_THAT(shown({"--json", "--force"}), IsEmpty());
+  program_.set_environment("TERM", "dumb");
+  EXPECT_THAT(shown({"--force"}), IsEmpty());
+}
+
+TEST_F(TerminalTest, ColoursOnlyWhereTheyAreTaken) {
+  const int output = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
+  ASSERT_GE(output, 0);
+  ASSERT_EQ(::grantpt(output) + ::unlockpt(output), 0);
+  program_.set_output(::ptsname(output));
+  const auto summary = [&] {
+    shown({"--force"});
+    std::string text(65536, '\0');
+    const ssize_t count = ::read(output, text.data(), text.size());
+    return count > 0 ? text.substr(0, static_cast<std::size_t>(count)) : "";
+  };
+  EXPECT_THAT(summary(), HasSubstr("\033["));
+  program_.set_environment("NO_COLOR", "1");
+  EXPECT_THAT(summary(), AllOf(HasSubstr("raycast"), Not(HasSubstr("\033["))));
+  ::close(output);
+}
+
+}  // namespace
+}  // namespace slambench
