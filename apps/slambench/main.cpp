@@ -14,6 +14,7 @@
 #include "help.h"
 #include "results/provenance.h"
 #include "terminal.h"
+#include "wait_policy.h"
 
 namespace slambench {
 namespace {
@@ -143,6 +144,7 @@ int report(ExitStatus status, const std::string& message) {
 
 int main(int argc, char** argv) {
   using slambench::ExitStatus;
+  slambench::let_threads_sleep(argv);
   try {
     slambench::prepare_standard_streams();
     return static_cast<int>(slambench::run(argc, argv));

@@ -35,6 +35,7 @@ Matrix6 normal_matrix(const Reduction& reduction) {
 std::span<const MapInfo> map_table() {
   static constexpr MapInfo table[] = {
       {MapKind::grid, "grid", "the paper's flat array of voxels"},
+      {MapKind::bricks, "bricks", "the same voxels in bricks of 8^3, free space not stored singly"},
   };
   return table;
 }
@@ -170,6 +171,7 @@ AlignResult Backend::align(const AlignInput& input, double condition) {
             input.normals.size() == input.iterations.size() &&
             input.rows.size() == input.iterations.size(),
         "align: numbers of levels differ");
+  if (fuses_align() && !input.fused) return Backend::do_align(input, condition);
   const KernelScope scope(fuses_align() ? launch_observer() : nullptr, Kernel::align);
   return do_align(input, condition);
 }

@@ -18,7 +18,8 @@ namespace slambench {
 
 /// How the volume is stored; every kind gives the same results to 2 units of the stored distance.
 enum class MapKind {
-  grid,  ///< the paper's flat array
+  grid,    ///< the paper's flat array
+  bricks,  ///< the same voxels in bricks of 8^3, those in free space not stored singly
 };
 /// One line of the table of maps.
 struct MapInfo {
@@ -66,6 +67,7 @@ struct AlignInput {
   Pose T_volume_camera = Pose::Identity();  ///< the start, in full precision
   double convergence = 0;  ///< a level ends when the norm of the update is below it
   bool keep_rows = false;  ///< the last iteration's rows are wanted (for render_track)
+  bool fused = true;       ///< false: by the single kernels even where the backend does better
 };
 
 struct AlignResult {
@@ -156,7 +158,7 @@ class Backend {
   void render_track(DeviceImage<Rgba8>& image, const DeviceImage<TrackData>& rows);
   void render_volume(DeviceImage<Rgba8>& image, const Volume& volume, const RaycastParameters& view,
                      const ShadeParameters& shading);
-  /// The ICP loop, coarse to fine. Unless a backend does better: track, reduce and solve.
+  /// The ICP loop, coarse to fine. Unless a backend does better and may: track, reduce and solve.
   AlignResult align(const AlignInput& input, double condition);
 
  protected:

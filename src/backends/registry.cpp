@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "backends/openmp/openmp_backend.h"
 #include "backends/serial/serial_backend.h"
 #include "core/error.h"
 
@@ -15,6 +16,11 @@ constexpr BackendEntry table[] = {
      [] { return std::vector<std::string>{SerialBackend().device()}; },
      [](const BackendOptions&) -> std::unique_ptr<Backend> {
        return std::make_unique<SerialBackend>();
+     }},
+    {"openmp", "threads and SIMD on the host", [] { return Availability{}; },
+     [] { return std::vector<std::string>{OpenmpBackend(1).device()}; },
+     [](const BackendOptions& options) -> std::unique_ptr<Backend> {
+       return std::make_unique<OpenmpBackend>(options.threads);
      }},
 };
 

@@ -26,10 +26,10 @@ std::vector<Preset> preset_table() {
   return {
       {"fast",
        "the quickest combination available here that agrees with the reference",
-       {{"backend", quickest_backend()}}},
+       {{"backend", quickest_backend()}, {"map", "auto"}, {"fused", "true"}}},
       {"slambench1",
        "the published behaviour: flat volume, the paper's kernels one by one",
-       {{"map", "grid"}, {"icl-nuim-camera", "slambench1"}}},
+       {{"map", "grid"}, {"fused", "false"}, {"icl-nuim-camera", "slambench1"}}},
   };
 }
 

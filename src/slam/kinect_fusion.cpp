@@ -17,6 +17,21 @@ Float3 to_float3(const std::array<double, 3>& v) {
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
+bool supports_all(const Backend& backend, MapKind map) {
+  return std::ranges::all_of(kernel_table(), [&](const KernelInfo& row) {
+    const bool optional = row.kernel == Kernel::acquire || row.kernel == Kernel::align;
+    return optional || backend.supports(row.kernel, map);
+  });
+}
+
+/// `auto` is bricks where the backend has them.
+MapKind map_kind(const std::string& word, const Backend& backend) {
+  if (word == "auto") {
+    return supports_all(backend, MapKind::bricks) ? MapKind::bricks : MapKind::grid;
+  }
+  return map_from_name(word);
+}
+
 /// The size of the images that kernels work on.
 Size computation_size(Size input, int ratio) {
   if (input.width % ratio != 0 || input.height % ratio != 0) {
@@ -69,7 +84,7 @@ KinectFusion::KinectFusion(Backend& backend, const KinectFusionParameters& param
       camera_(camera.divided_by(static_cast<float>(parameters.compute_size_ratio))),
       units_per_m_(units_per_m),
       observer_(observer) {
-  const MapKind map = map_from_name(p_.map);
+  const MapKind map = map_kind(p_.map, backend_);
   require_kernels(backend_, map);
   const Size size = computation_size(input, p_.compute_size_ratio);
 
@@ -149,6 +164,7 @@ void KinectFusion::track(FrameResult* result) {
                       static_cast<float>(p_.icp_normal_threshold)};
   input.convergence = p_.icp_threshold;
   input.keep_rows = true;
+  input.fused = p_.fused;
   const AlignResult aligned = backend_.align(input, p_.solve_condition);
 
   accept(aligned, result);

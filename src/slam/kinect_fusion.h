@@ -44,6 +44,7 @@ struct KinectFusionParameters {
   double render_far_factor = 2.0;
   std::array<double, 3> light_m = {1, 1, -1};
   double ambient = 0.1;
+  bool fused = false;
 
   ParameterList describe();
 };

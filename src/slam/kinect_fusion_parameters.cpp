@@ -5,12 +5,13 @@
 namespace slambench {
 
 ParameterList KinectFusionParameters::describe() {
-  std::vector<std::string_view> maps;
+  std::vector<std::string_view> maps = {"auto"};
   for (const MapInfo& info : map_table()) maps.push_back(info.name);
   return {
       "kinectfusion",
       {
-          {"map", 0, "", &map, 0, 0, "how the volume is stored", maps},
+          {"map", 0, "", &map, 0, 0, "how the volume is stored; auto: as the backend is quickest",
+           maps},
           {"compute-size-ratio", 'c', "", &compute_size_ratio, 1, 8,
            "input size divided by computation size: 1, 2, 4 or 8"},
           {"volume-resolution", 'v', "voxels", &volume_resolution, 8, 4096,
@@ -65,6 +66,7 @@ ParameterList KinectFusionParameters::describe() {
            "how much farther than for tracking rays see when the volume is drawn"},
           {"light", 0, "m", &light_m, -1000, 1000, "position of the light in the volume"},
           {"ambient", 0, "", &ambient, 0, 1, "brightness of surfaces turned away from the light"},
+          {"fused", 0, "", &fused, 0, 0, "kernels run fused where the backend has them so"},
       },
   };
 }

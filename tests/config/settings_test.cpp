@@ -127,7 +127,7 @@ TEST_F(SettingsTest, WhatAFileGetsWrongIsNamedWithItsLine) {
       input_error("[kinectfusion]\npyramid-levels = []\n"),
       "a.toml:2: pyramid-levels: found [], expected integers in [0, 1000], separated by commas");
   EXPECT_EQ(input_error("[kinectfusion]\nmap = \"octree\"\n"),
-            "a.toml:2: map: found 'octree', expected one of grid");
+            "a.toml:2: map: found 'octree', expected one of auto, grid, bricks");
   EXPECT_EQ(input_error("[kinectfusion]\nmu = 1979-05-27\n"),
             "a.toml:2: mu: found a date or time, expected a number in [0.0001, 10] m");
   EXPECT_THAT(input_error("[kinectfusion]\nmu = 0.1\nmu = 0.2\n"), HasSubstr("a.toml:3: not TOML"));

@@ -45,6 +45,7 @@ TEST(KinectFusionParameters, DefaultsAreThePublishedOnes) {
       {"render-far-factor", "2"},
       {"light", "1,1,-1"},
       {"ambient", "0.1"},
+      {"fused", "false"},
   };
   std::map<std::string_view, std::string> described;
   for (const Parameter& parameter : parameters.describe().parameters) {

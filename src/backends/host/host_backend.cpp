@@ -3,7 +3,6 @@
 #include "backends/host/host_backend.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -11,25 +10,18 @@
 #include <fstream>
 #include <string>
 
+#include "backends/host/memory.h"
 #include "core/error.h"
 
 namespace slambench {
 namespace {
 
-/// What Linux can hand out without swapping; elsewhere the whole memory. An allocation beyond it
-/// would succeed and the process be killed later.
-std::size_t available_memory_bytes() {
-  std::ifstream meminfo("/proc/meminfo");
-  for (std::string line; std::getline(meminfo, line);) {
-    if (line.starts_with("MemAvailable:")) {
-      return std::strtoull(line.c_str() + std::strlen("MemAvailable:"), nullptr, 10) * 1024;
-    }
-  }
-  return static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
-         static_cast<std::size_t>(sysconf(_SC_PAGE_SIZE));
-}
-
 constexpr std::size_t alignment = 64;
+constexpr std::size_t huge_page = std::size_t{2} << 20;
+
+constexpr std::size_t rounded_up(std::size_t bytes, std::size_t unit) {
+  return (std::max<std::size_t>(bytes, 1) + unit - 1) / unit * unit;
+}
 
 std::string processor_name() {
   std::ifstream cpuinfo("/proc/cpuinfo");
@@ -45,17 +37,66 @@ std::size_t voxel_count(Int3 resolution) {
          static_cast<std::size_t>(resolution.z);
 }
 
+/// Calls f(brick, voxel of the brick, voxel of the flat volume) for every voxel of a volume.
+template <class F>
+void for_each_voxel(const BrickVolume& volume, Int3 n, F f) {
+  constexpr int edge = BrickVolume::edge;
+  std::size_t flat = 0;
+  for (int z = 0; z < n.z; ++z) {
+    for (int y = 0; y < n.y; ++y) {
+      for (int x = 0; x < n.x; ++x) {
+        f(volume.index(x / edge, y / edge, z / edge),
+          (z % edge * edge + y % edge) * edge + x % edge, flat++);
+      }
+    }
+  }
+}
+
+void read_bricks(Voxel* destination, const BrickVolume& source, Int3 resolution) {
+  for_each_voxel(source, resolution, [&](std::size_t brick, int i, std::size_t flat) {
+    const std::int16_t* tsdf = source.own_tsdf(brick);
+    const std::int16_t* weights = source.own_weights(brick);
+    destination[flat] = {tsdf == nullptr ? BrickVolume::free_space : tsdf[i],
+                         weights == nullptr ? source.uniform_weight(brick) : weights[i]};
+  });
+}
+
+void write_bricks(BrickVolume& destination, const Voxel* source, Int3 n) {
+  constexpr int edge = BrickVolume::edge;
+  destination.clear();
+  const Int3 bricks = destination.bricks();
+  std::int16_t tsdf[BrickVolume::voxels], weights[BrickVolume::voxels];
+  for (std::size_t brick = 0; brick < destination.count(); ++brick) {
+    const int linear = static_cast<int>(brick);
+    const int x0 = linear % bricks.x * edge, y0 = linear / bricks.x % bricks.y * edge;
+    const int z0 = linear / bricks.x / bricks.y * edge;
+    for (int i = 0; i < BrickVolume::voxels; ++i) {
+      const auto x = static_cast<std::size_t>(clamp_index(x0 + i % edge, n.x));
+      const auto y = static_cast<std::size_t>(clamp_index(y0 + i / edge % edge, n.y));
+      const auto z = static_cast<std::size_t>(clamp_index(z0 + i / edge / edge, n.z));
+      const Voxel& voxel =
+          source[(z * static_cast<std::size_t>(n.y) + y) * static_cast<std::size_t>(n.x) + x];
+      tsdf[i] = voxel.tsdf;
+      weights[i] = voxel.weight;
+    }
+    destination.reserve(1);
+    destination.store(brick, tsdf, weights);
+  }
+  destination.refresh_occupancy();
+}
+
 }  // namespace
 
 HostStorage::HostStorage(std::size_t bytes) : data_(nullptr), bytes_(bytes) {
-  const std::size_t rounded =
-      (std::max<std::size_t>(bytes, 1) + alignment - 1) / alignment * alignment;
-  const std::size_t available = available_memory_bytes();
-  if (rounded <= available) data_ = std::aligned_alloc(alignment, rounded);
+  const bool huge = bytes >= 2 * huge_page;
+  const std::size_t unit = huge ? huge_page : alignment;
+  const std::size_t rounded = rounded_up(bytes, unit);
+  require_memory(rounded);
+  data_ = std::aligned_alloc(unit, rounded);
   if (data_ == nullptr) {
-    throw UnavailableError(fmt::format("memory: found {} MiB available, expected {} MiB",
-                                       available >> 20, rounded >> 20));
+    throw UnavailableError(fmt::format("memory: the system refuses {} MiB", rounded >> 20));
   }
+  if (huge) ask_for_huge_pages(data_, rounded);
   std::memset(data_, 0, rounded);
 }
 
@@ -75,21 +116,31 @@ void HostBackend::download(void* destination, const Storage& source, std::size_t
   std::memcpy(destination, static_cast<const HostStorage&>(source).data(), bytes);
 }
 
-std::unique_ptr<Storage> HostBackend::allocate_volume(MapKind, Int3 resolution, Float3) {
+std::unique_ptr<Storage> HostBackend::allocate_volume(MapKind map, Int3 resolution, Float3) {
+  if (map == MapKind::bricks) return std::make_unique<BrickVolume>(resolution);
   return allocate(voxel_count(resolution) * sizeof(Voxel));
 }
 
 void HostBackend::read_volume(std::vector<Voxel>& destination, const Volume& source) {
   destination.resize(voxel_count(source.resolution));
-  download(destination.data(), *source.storage, destination.size() * sizeof(Voxel));
+  if (source.map == MapKind::bricks) {
+    read_bricks(destination.data(), bricks(source), source.resolution);
+  } else {
+    download(destination.data(), *source.storage, destination.size() * sizeof(Voxel));
+  }
 }
 
 void HostBackend::write_volume(Volume& destination, const std::vector<Voxel>& source) {
   check(source.size() == voxel_count(destination.resolution), "write_volume: sizes differ");
-  upload(*destination.storage, source.data(), source.size() * sizeof(Voxel));
+  if (destination.map == MapKind::bricks) {
+    write_bricks(bricks(destination), source.data(), destination.resolution);
+  } else {
+    std::copy(source.begin(), source.end(), voxels(destination));
+  }
 }
 
 std::size_t HostBackend::volume_bytes(const Volume& volume) const {
+  if (volume.map == MapKind::bricks) return bricks(volume).bytes();
   return static_cast<const HostStorage&>(*volume.storage).bytes();
 }
 

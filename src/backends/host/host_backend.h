@@ -5,12 +5,14 @@
 #include <cstddef>
 
 #include "backends/backend.h"
+#include "backends/host/brick_volume.h"
+#include "backends/host/versioned_storage.h"
 #include "kernels/volume_maths.h"
 
 namespace slambench {
 
 /// Zeroed memory of the host, aligned for any SIMD type.
-class HostStorage final : public Storage {
+class HostStorage final : public VersionedStorage {
  public:
   /// Throws UnavailableError when the machine has less than that available.
   explicit HostStorage(std::size_t bytes);
@@ -26,8 +28,8 @@ class HostStorage final : public Storage {
   std::size_t bytes_;
 };
 
-/// What backends that compute on the host share: plain memory for images and for the flat grid, so
-/// that their kernels can stand in for each other.
+/// What backends that compute on the host share: memory for images, the flat grid and the bricks,
+/// so that their kernels can stand in for each other.
 class HostBackend : public Backend {
  public:
   std::string device() const override;
@@ -50,11 +52,36 @@ class HostBackend : public Backend {
     return static_cast<const T*>(static_cast<const HostStorage&>(*image.storage).data());
   }
   static Voxel* voxels(Volume& volume) {
-    return static_cast<Voxel*>(static_cast<HostStorage&>(*volume.storage).data());
+    auto& storage = static_cast<HostStorage&>(*volume.storage);
+    storage.changed();
+    return static_cast<Voxel*>(storage.data());
+  }
+  static BrickVolume& bricks(Volume& volume) {
+    auto& storage = static_cast<BrickVolume&>(*volume.storage);
+    storage.changed();
+    return storage;
+  }
+  static const BrickVolume& bricks(const Volume& volume) {
+    return static_cast<const BrickVolume&>(*volume.storage);
+  }
+  static std::uint64_t version(const Volume& volume) {
+    return static_cast<const VersionedStorage&>(*volume.storage).version();
+  }
+  static BrickView brick_view(const Volume& volume) {
+    return {&bricks(volume), volume.resolution, volume.size_m};
   }
   static GridView grid(const Volume& volume) {
     return {static_cast<const Voxel*>(static_cast<const HostStorage&>(*volume.storage).data()),
             volume.resolution, volume.size_m};
+  }
+  /// Calls f with the volume as the per-voxel maths reads it: a GridView or a BrickView.
+  template <class F>
+  static void with_map(const Volume& volume, F f) {
+    if (volume.map == MapKind::bricks) {
+      f(brick_view(volume));
+    } else {
+      f(grid(volume));
+    }
   }
 };
 

@@ -16,10 +16,38 @@ void for_each_pixel(Size size, F f) {
   }
 }
 
+/// Every voxel of every brick.
+void integrate_bricks(BrickVolume& volume, Float3 voxel_m, const float* depth_m, Size size,
+                      const IntegrateParameters& parameters) {
+  constexpr int edge = BrickVolume::edge;
+  const Int3 bricks = volume.bricks();
+  std::int16_t tsdf[BrickVolume::voxels], weights[BrickVolume::voxels];
+  for (std::size_t brick = 0; brick < volume.count(); ++brick) {
+    const int linear = static_cast<int>(brick);
+    const int x0 = linear % bricks.x * edge, y0 = linear / bricks.x % bricks.y * edge;
+    const int z0 = linear / bricks.x / bricks.y * edge;
+    volume.load(brick, tsdf, weights);
+    bool changed = false;
+    for (int i = 0; i < BrickVolume::voxels; ++i) {
+      const Float3 center = parameters.T_camera_volume.apply(
+          voxel_center(x0 + i % edge, y0 + i / edge % edge, z0 + i / edge / edge, voxel_m));
+      Voxel voxel{tsdf[i], weights[i]};
+      changed |= integrate_voxel(&voxel, center, depth_m, size, parameters);
+      tsdf[i] = voxel.tsdf;
+      weights[i] = voxel.weight;
+    }
+    if (!changed) continue;
+    volume.reserve(1);
+    volume.store(brick, tsdf, weights);
+  }
+  volume.refresh_occupancy();
+}
+
 }  // namespace
 
 bool SerialBackend::supports(Kernel kernel, MapKind map) const {
-  return kernel != Kernel::acquire && kernel != Kernel::align && map == MapKind::grid;
+  return kernel != Kernel::acquire && kernel != Kernel::align &&
+         (map == MapKind::grid || map == MapKind::bricks);
 }
 
 void SerialBackend::do_generate_gaussian(DeviceImage<float>& weights, float sigma_px) {
@@ -29,6 +57,7 @@ void SerialBackend::do_generate_gaussian(DeviceImage<float>& weights, float sigm
 }
 
 void SerialBackend::do_init_volume(Volume& volume) {
+  if (volume.map == MapKind::bricks) return bricks(volume).clear();
   const auto count = static_cast<std::size_t>(volume.resolution.x) *
                      static_cast<std::size_t>(volume.resolution.y) *
                      static_cast<std::size_t>(volume.resolution.z);
@@ -107,6 +136,9 @@ void SerialBackend::do_integrate(Volume& volume, const DeviceImage<float>& depth
                                  const IntegrateParameters& parameters) {
   const Int3 n = volume.resolution;
   const Float3 voxel_m = voxel_size(n, volume.size_m);
+  if (volume.map == MapKind::bricks) {
+    return integrate_bricks(bricks(volume), voxel_m, pixels(depth_m), depth_m.size, parameters);
+  }
   Voxel* voxel = voxels(volume);
   for (int z = 0; z < n.z; ++z) {
     for (int y = 0; y < n.y; ++y) {
@@ -120,9 +152,10 @@ void SerialBackend::do_integrate(Volume& volume, const DeviceImage<float>& depth
 
 void SerialBackend::do_raycast(DeviceImage<Float3>& vertices, DeviceImage<Float3>& normals,
                                const Volume& volume, const RaycastParameters& parameters) {
-  const GridView map = grid(volume);
-  for_each_pixel(vertices.size, [&](std::size_t i, int x, int y) {
-    raycast_pixel(map, x, y, parameters, &pixels(vertices)[i], &pixels(normals)[i]);
+  with_map(volume, [&](const auto& map) {
+    for_each_pixel(vertices.size, [&](std::size_t i, int x, int y) {
+      raycast_pixel(map, x, y, parameters, &pixels(vertices)[i], &pixels(normals)[i]);
+    });
   });
 }
 
@@ -142,11 +175,12 @@ void SerialBackend::do_render_track(DeviceImage<Rgba8>& image, const DeviceImage
 void SerialBackend::do_render_volume(DeviceImage<Rgba8>& image, const Volume& volume,
                                      const RaycastParameters& view,
                                      const ShadeParameters& shading) {
-  const GridView map = grid(volume);
-  for_each_pixel(image.size, [&](std::size_t i, int x, int y) {
-    Float3 vertex, normal;
-    raycast_pixel(map, x, y, view, &vertex, &normal);
-    pixels(image)[i] = shade(vertex, normal, shading);
+  with_map(volume, [&](const auto& map) {
+    for_each_pixel(image.size, [&](std::size_t i, int x, int y) {
+      Float3 vertex, normal;
+      raycast_pixel(map, x, y, view, &vertex, &normal);
+      pixels(image)[i] = shade(vertex, normal, shading);
+    });
   });
 }
 

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "backends/host/versioned_storage.h"
+
+namespace slambench {
+
+/// Planes of 512 16-bit values, handed out one after the other and given back all together. Their
+/// addresses never change: the address space for all is set aside at once, the memory (in huge
+/// pages where the system has them) as it is used.
+class PlanePool {
+ public:
+  static constexpr std::size_t plane_values = 512;
+  static constexpr std::size_t plane_bytes = plane_values * sizeof(std::int16_t);
+
+  /// Throws UnavailableError when the address space is refused.
+  explicit PlanePool(std::size_t capacity);
+  ~PlanePool();
+  PlanePool(const PlanePool&) = delete;
+  PlanePool& operator=(const PlanePool&) = delete;
+
+  /// Makes sure of memory for so many more planes, or throws UnavailableError.
+  void reserve(std::size_t planes);
+  /// A plane of unspecified values; there must be one in reserve. Safe from several threads.
+  int take() { return static_cast<int>(used_.fetch_add(1, std::memory_order_relaxed)); }
+  void clear() { used_ = 0; }
+
+  std::int16_t* plane(int i) const { return data_ + static_cast<std::size_t>(i) * plane_values; }
+  std::size_t used() const { return used_; }
+
+ private:
+  std::size_t capacity_, mapped_bytes_;
+  std::size_t granted_ = 0;  ///< planes that there was memory for when last looked
+  std::atomic<std::size_t> used_ = 0;
+  std::int16_t* data_ = nullptr;
+};
+
+/// A volume in bricks of 8^3 voxels (x fastest) under a direct table. A brick whose distances have
+/// all only ever been +1 has no distances of its own but shares plane 0; one whose weights are all
+/// equal keeps that one number instead of a plane. Nothing is lost: 32766 is a fixed point of the
+/// update with a truncated distance of 1, whatever the weight. Where the resolution is no
+/// multiple of 8, the last bricks have voxels beyond it, which nobody reads.
+class BrickVolume final : public VersionedStorage {
+ public:
+  static constexpr int edge = 8;
+  static constexpr int voxels = edge * edge * edge;
+  static constexpr std::int16_t free_space = Voxel{}.tsdf;
+
+  explicit BrickVolume(Int3 resolution);
+
+  /// Forgets all measurements.
+  void clear();
+  Int3 bricks() const { return bricks_; }
+  std::size_t count() const { return distance_planes_.size(); }
+  std::size_t index(int bx, int by, int bz) const {
+    return (static_cast<std::size_t>(bz) * static_cast<std::size_t>(bricks_.y) +
+            static_cast<std::size_t>(by)) *
+               static_cast<std::size_t>(bricks_.x) +
+           static_cast<std::size_t>(bx);
+  }
+
+  /// Copies a brick out.
+  void load(std::size_t brick, std::int16_t* tsdf, std::int16_t* weights) const;
+  /// Stores a brick; there must be a plane of each kind in reserve unless it has both. Different
+  /// bricks may be stored by different threads.
+  void store(std::size_t brick, const std::int16_t* tsdf, const std::int16_t* weights);
+  /// Makes sure that so many bricks can be stored, or throws UnavailableError.
+  void reserve(std::size_t bricks);
+
+  /// Whether the brick's weights are one number, and which.
+  bool uniform(std::size_t brick) const { return weight_planes_[brick] < 0; }
+  std::int16_t uniform_weight(std::size_t brick) const {
+    return static_cast<std::int16_t>(-1 - weight_planes_[brick]);
+  }
+  void set_uniform_weight(std::size_t brick, std::int16_t weight) {
+    weight_planes_[brick] = -1 - weight;
+  }
+  /// Null when the brick keeps no plane of its own.
+  std::int16_t* own_tsdf(std::size_t brick) const {
+    return distance_planes_[brick] == 0 ? nullptr : distances_.plane(distance_planes_[brick]);
+  }
+  std::int16_t* own_weights(std::size_t brick) const {
+    return uniform(brick) ? nullptr : weights_.plane(weight_planes_[brick]);
+  }
+
+  float tsdf(int x, int y, int z) const {
+    const std::size_t brick = index(x / edge, y / edge, z / edge);
+    return distances_.plane(
+        distance_planes_[brick])[(z % edge * edge + y % edge) * edge + x % edge];
+  }
+
+  /// For readers with many lanes: the plane of every brick, 0 for a brick of +1, and the planes.
+  const std::int32_t* plane_table() const { return distance_planes_.data(); }
+  const std::int16_t* planes() const { return distances_.plane(0); }
+  std::size_t planes_used() const { return distances_.used(); }
+
+  /// A byte a brick, not 0 when a sample whose lower corner lies in it can be other than +1: when
+  /// it or a neighbour above it along any axes has distances of its own. Three bytes follow the
+  /// last. Up to date after refresh_occupancy().
+  const std::uint8_t* occupancy() const { return occupancy_.data(); }
+  void refresh_occupancy();
+
+  /// Memory in use.
+  std::size_t bytes() const;
+
+ private:
+  Int3 bricks_;
+  std::vector<std::int32_t> distance_planes_;  ///< per brick
+  std::vector<std::int32_t> weight_planes_;    ///< per brick; negative: -1 - the uniform weight
+  PlanePool distances_, weights_;
+  std::vector<std::uint8_t> occupancy_;
+  std::vector<std::int32_t> owners_;  ///< of the distance planes
+  std::size_t seen_planes_ = 1;       ///< planes that the occupancy knows
+};
+
+/// A BrickVolume as the per-voxel maths of kernels/ reads it.
+struct BrickView {
+  const BrickVolume* volume = nullptr;
+  Int3 resolution;
+  Float3 size_m;
+
+  float tsdf(int x, int y, int z) const { return volume->tsdf(x, y, z); }
+};
+
+}  // namespace slambench

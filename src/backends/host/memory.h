@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <cstddef>
+
+namespace slambench {
+
+/// What Linux can hand out without swapping; elsewhere the whole memory. An allocation beyond it
+/// would succeed and the process be killed later.
+std::size_t available_memory_bytes();
+
+/// Throws UnavailableError when the machine has less than that available.
+void require_memory(std::size_t bytes);
+
+/// Asks for huge pages for this memory, where the system has them; a wish.
+void ask_for_huge_pages(void* data, std::size_t bytes);
+
+}  // namespace slambench

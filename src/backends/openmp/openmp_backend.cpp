@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include "backends/openmp/openmp_backend.h"
+
+#include <algorithm>
+
+#include "backends/openmp/image_kernels.h"
+#include "backends/openmp/raycast_kernels.h"
+
+namespace slambench {
+namespace {
+
+constexpr int image_rows = 8;      // of a chunk
+constexpr int volume_rows = 64;    // of a chunk of the flat volume
+constexpr int bricks_at_once = 8;  // of a chunk of bricks
+
+bool same_ray(const Rigid3f& a, const Rigid3f& b) {
+  return a.row0 == b.row0 && a.row1 == b.row1 && a.row2 == b.row2 && a.translation == b.translation;
+}
+
+/// Whether rays of both march through the same samples, up to where the nearer ends.
+bool same_march(const RaycastParameters& a, const RaycastParameters& b) {
+  return same_ray(a.T_volume_camera, b.T_volume_camera) && a.camera == b.camera &&
+         a.near_m == b.near_m && a.large_step_m == b.large_step_m &&
+         a.small_step_m == b.small_step_m && a.slow_below == b.slow_below;
+}
+
+}  // namespace
+
+bool OpenmpBackend::supports(Kernel kernel, MapKind map) const {
+  return kernel != Kernel::acquire && (map == MapKind::grid || map == MapKind::bricks);
+}
+
+template <class F>
+void OpenmpBackend::for_rows(int height, const F& f) const {
+  parallel_.for_chunks(height, image_rows, [&](int begin, int end) { f(Rows{begin, end}); });
+}
+
+template <class F>
+Reduction OpenmpBackend::sum_bands(Size size, const F& f) {
+  const int count = (size.height + band_rows - 1) / band_rows;
+  bands_.resize(static_cast<std::size_t>(count));
+  parallel_.for_chunks(size.height, band_rows, [&](int begin, int end) {
+    bands_[static_cast<std::size_t>(begin / band_rows)] = f(Rows{begin, end});
+  });
+  Reduction sum;
+  for (const Reduction& band : bands_) add(band, &sum);
+  return sum;
+}
+
+std::unique_ptr<Storage> OpenmpBackend::allocate_volume(MapKind map, Int3 resolution,
+                                                        Float3 size_m) {
+  view_.volume = nullptr;  // its volume may be gone and the new one take its address
+  return HostBackend::allocate_volume(map, resolution, size_m);
+}
+
+void OpenmpBackend::do_generate_gaussian(DeviceImage<float>& weights, float sigma_px) {
+  const int radius = weights.size.width / 2;
+  for (int i = -radius; i <= radius; ++i)
+    pixels(weights)[i + radius] = gaussian_weight(i, sigma_px);
+}
+
+void OpenmpBackend::do_init_volume(Volume& volume) {
+  if (volume.map == MapKind::bricks) return bricks(volume).clear();
+  Voxel* voxel = voxels(volume);
+  const Int3 n = volume.resolution;
+  const std::size_t slice = static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y);
+  parallel_.for_chunks(n.z, 1, [&](int begin, int end) {
+    std::fill(voxel + slice * static_cast<std::size_t>(begin),
+              voxel + slice * static_cast<std::size_t>(end), Voxel{});
+  });
+}
+
+void OpenmpBackend::do_mm2meters(DeviceImage<float>& depth_m,
+                                 const DeviceImage<std::uint16_t>& depth, float units_per_m) {
+  const int ratio = depth.size.width / depth_m.size.width;
+  for_rows(depth_m.size.height, [&](Rows rows) {
+    mm2meters_rows(pixels(depth_m), depth_m.size, pixels(depth), ratio, units_per_m, rows);
+  });
+}
+
+void OpenmpBackend::do_bilateral_filter(DeviceImage<float>& filtered_m,
+                                        const DeviceImage<float>& depth_m,
+                                        const DeviceImage<float>& gaussian, float range_sigma_m) {
+  const float inverse_two_sigma2 = 1.0f / (2.0f * range_sigma_m * range_sigma_m);
+  for_rows(depth_m.size.height, [&](Rows rows) {
+    bilateral_rows(pixels(filtered_m), pixels(depth_m), depth_m.size, pixels(gaussian),
+                   gaussian.size.width / 2, inverse_two_sigma2, rows);
+  });
+}
+
+void OpenmpBackend::do_half_sample(DeviceImage<float>& half_m, const DeviceImage<float>& depth_m,
+                                   float range_m) {
+  for_rows(half_m.size.height, [&](Rows rows) {
+    half_sample_rows(pixels(half_m), half_m.size, pixels(depth_m), depth_m.size, range_m, rows);
+  });
+}
+
+void OpenmpBackend::do_depth2vertex(DeviceImage<Float3>& vertices,
+                                    const DeviceImage<float>& depth_m, Intrinsics camera) {
+  for_rows(depth_m.size.height, [&](Rows rows) {
+    depth2vertex_rows(pixels(vertices), pixels(depth_m), depth_m.size, camera, rows);
+  });
+}
+
+void OpenmpBackend::do_vertex2normal(DeviceImage<Float3>& normals,
+                                     const DeviceImage<Float3>& vertices) {
+  for_rows(vertices.size.height, [&](Rows rows) {
+    vertex2normal_rows(pixels(normals), pixels(vertices), vertices.size, rows);
+  });
+}
+
+void OpenmpBackend::do_track(DeviceImage<TrackData>& rows, const DeviceImage<Float3>& vertices,
+                             const DeviceImage<Float3>& normals,
+                             const DeviceImage<Float3>& model_vertices,
+                             const DeviceImage<Float3>& model_normals,
+                             const TrackParameters& parameters) {
+  const TrackInput input = {
+      pixels(vertices),      pixels(normals),     vertices.size, pixels(model_vertices),
+      pixels(model_normals), model_vertices.size, parameters};
+  for_rows(rows.size.height, [&](Rows part) { track_rows(pixels(rows), input, part); });
+}
+
+Reduction OpenmpBackend::do_reduce(const DeviceImage<TrackData>& rows) {
+  const TrackData* track = pixels(rows);
+  return sum_bands(rows.size, [&](Rows band) { return reduce_band(track, rows.size, band); });
+}
+
+AlignResult OpenmpBackend::do_align(const AlignInput& input, double condition) {
+  AlignResult result;
+  result.T_volume_camera = input.T_volume_camera;
+  result.iterations.assign(input.iterations.size(), 0);
+  TrackInput track = {nullptr,
+                      nullptr,
+                      {},
+                      pixels(*input.model_vertices),
+                      pixels(*input.model_normals),
+                      input.model_vertices->size,
+                      input.parameters};
+  for (std::size_t level = input.iterations.size(); level-- > 0;) {
+    track.vertices = pixels(*input.vertices[level]);
+    track.normals = pixels(*input.normals[level]);
+    track.size = input.vertices[level]->size;
+    for (int i = 0; i < input.iterations[level]; ++i) {
+      track.parameters.T_volume_camera = to_rigid3f(result.T_volume_camera);
+      result.last =
+          sum_bands(track.size, [&](Rows band) { return track_reduce_band(track, band); });
+      result.last_level = static_cast<int>(level);
+      ++result.iterations[level];
+      const Twist twist = do_solve(result.last, condition);
+      result.T_volume_camera = moved(result.T_volume_camera, twist);
+      if (norm(twist) < input.convergence) break;
+    }
+  }
+  const auto last = static_cast<std::size_t>(result.last_level);
+  if (input.keep_rows && result.iterations[last] > 0) {
+    TrackData* rows = pixels(*input.rows[last]);
+    track.vertices = pixels(*input.vertices[last]);
+    track.normals = pixels(*input.normals[last]);
+    track.size = input.vertices[last]->size;
+    for_rows(track.size.height, [&](Rows part) { track_rows(rows, track, part); });
+  }
+  return result;
+}
+
+void OpenmpBackend::do_integrate(Volume& volume, const DeviceImage<float>& depth_m,
+                                 const IntegrateParameters& parameters) {
+  depth_.build(pixels(depth_m), depth_m.size);
+  const Float3 size_m = volume.size_m;
+  const IntegrateInput input = {pixels(depth_m),
+                                depth_m.size,
+                                parameters,
+                                volume.resolution,
+                                voxel_size(volume.resolution, size_m),
+                                depth_.greatest(),
+                                1e-5f * std::max({size_m.x, size_m.y, size_m.z})};
+  if (volume.map == MapKind::bricks) return integrate_bricks(bricks(volume), input);
+  Voxel* voxel = voxels(volume);
+  parallel_.for_chunks(volume.resolution.y * volume.resolution.z, volume_rows,
+                       [&](int begin, int end) { integrate_rows(voxel, input, begin, end); });
+}
+
+void OpenmpBackend::integrate_bricks(BrickVolume& volume, const IntegrateInput& input) {
+  const Int3 bricks = volume.bricks();
+  varied_.resize(static_cast<std::size_t>(bricks.z));
+  parallel_.for_chunks(bricks.z, 1, [&](int bz, int) {
+    std::vector<std::int32_t>& varied = varied_[static_cast<std::size_t>(bz)];
+    varied.clear();
+    for (int by = 0; by < bricks.y; ++by) classify_bricks(volume, input, depth_, by, bz, &varied);
+  });
+  all_varied_.clear();
+  for (const std::vector<std::int32_t>& varied : varied_) {
+    all_varied_.insert(all_varied_.end(), varied.begin(), varied.end());
+  }
+  volume.reserve(all_varied_.size());
+  parallel_.for_chunks(static_cast<int>(all_varied_.size()), bricks_at_once,
+                       [&](int begin, int end) {
+                         for (int i = begin; i < end; ++i) {
+                           integrate_brick(volume, input, all_varied_[static_cast<std::size_t>(i)]);
+                         }
+                       });
+  volume.refresh_occupancy();
+}
+
+void OpenmpBackend::march(const RaycastOutput& output, const Volume& volume,
+                          const RaycastParameters& parameters) const {
+  with_map(volume, [&](const auto& map) {
+    const bool reaches = raycast_reaches(map);
+    for_rows(output.size.height, [&](Rows rows) {
+      if (reaches) return raycast_rows(output, map, parameters, rows);
+      for (int y = rows.begin; y < rows.end; ++y) {
+        for (int x = 0; x < output.size.width; ++x) {
+          const std::size_t i =
+              static_cast<std::size_t>(y) * static_cast<std::size_t>(output.size.width) +
+              static_cast<std::size_t>(x);
+          if (output.only_misses && output.normals[i].x != invalid_normal) continue;
+          raycast_pixel(map, x, y, parameters, &output.vertices[i], &output.normals[i]);
+        }
+      }
+    });
+  });
+}
+
+void OpenmpBackend::do_raycast(DeviceImage<Float3>& vertices, DeviceImage<Float3>& normals,
+                               const Volume& volume, const RaycastParameters& parameters) {
+  march({pixels(vertices), pixels(normals), vertices.size}, volume, parameters);
+  if (!renders_) return;
+  const Size size = vertices.size;
+  view_.vertices.resize(size.count());
+  view_.normals.resize(size.count());
+  for_rows(size.height, [&](Rows rows) {
+    const auto begin = static_cast<std::size_t>(rows.begin) * static_cast<std::size_t>(size.width);
+    const auto end = static_cast<std::size_t>(rows.end) * static_cast<std::size_t>(size.width);
+    std::copy(pixels(vertices) + begin, pixels(vertices) + end, view_.vertices.data() + begin);
+    std::copy(pixels(normals) + begin, pixels(normals) + end, view_.normals.data() + begin);
+  });
+  hold(volume, parameters, size);
+}
+
+void OpenmpBackend::hold(const Volume& volume, const RaycastParameters& parameters, Size size) {
+  view_.volume = volume.storage.get();
+  view_.version = version(volume);
+  view_.parameters = parameters;
+  view_.size = size;
+}
+
+void OpenmpBackend::see(const Volume& volume, const RaycastParameters& view, Size size) {
+  const bool held = view_.volume == volume.storage.get() && view_.version == version(volume) &&
+                    view_.size == size && same_march(view_.parameters, view) &&
+                    view_.parameters.far_m <= view.far_m;
+  if (held && view_.parameters.far_m == view.far_m) return;
+  view_.vertices.resize(size.count());
+  view_.normals.resize(size.count());
+  // A ray that met a surface meets the same one when it may go farther.
+  march({view_.vertices.data(), view_.normals.data(), size, held}, volume, view);
+  hold(volume, view, size);
+}
+
+void OpenmpBackend::do_render_depth(DeviceImage<Rgba8>& image, const DeviceImage<float>& depth_m,
+                                    float near_m, float far_m) {
+  for_rows(image.size.height, [&](Rows rows) {
+    render_depth_rows(pixels(image), pixels(depth_m), image.size, near_m, far_m, rows);
+  });
+}
+
+void OpenmpBackend::do_render_track(DeviceImage<Rgba8>& image, const DeviceImage<TrackData>& rows) {
+  for_rows(image.size.height,
+           [&](Rows part) { render_track_rows(pixels(image), pixels(rows), image.size, part); });
+}
+
+void OpenmpBackend::do_render_volume(DeviceImage<Rgba8>& image, const Volume& volume,
+                                     const RaycastParameters& view,
+                                     const ShadeParameters& shading) {
+  renders_ = true;
+  see(volume, view, image.size);
+  for_rows(image.size.height, [&](Rows rows) {
+    shade_rows(pixels(image), view_.vertices.data(), view_.normals.data(), image.size, shading,
+               rows);
+  });
+}
+
+}  // namespace slambench
