@@ -177,7 +177,7 @@ void complete_info(const SourceParameters& parameters, const std::string& ground
   } else {
     check_overlap(stamps_s, info);
   }
-  suggest_settings(info);
+  if (info->suggested.empty()) suggest_settings(info);
 }
 
 }  // namespace slambench

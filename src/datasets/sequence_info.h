@@ -29,7 +29,7 @@ void set_axes_y_up(SequenceInfo* info);
 /// that of a 640x480 image and is scaled to `depth_size`; the user's camera, depth scale and ground
 /// truth override the sequence's own; the ground truth is read and compared with the frames' time
 /// stamps (sorted); one named as ICL-NUIM's has its axes; settings that suit the sequence are
-/// suggested.
+/// suggested unless the reader has.
 /// `ground_truth_file` is the sequence's own, "" for none; poses that a reader has put into
 /// `info->ground_truth` itself are weaker than both files.
 /// Throws InputError for a bad ground truth or one that belongs to none of the frames, UsageError

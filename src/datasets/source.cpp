@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "datasets/icl_nuim.h"
+#include "datasets/living_room.h"
 #include "datasets/sequence_info.h"
 #include "datasets/slambench_raw.h"
 #include "datasets/tum_rgbd.h"
@@ -81,6 +82,8 @@ ParameterList SourceParameters::describe() {
 
 const std::vector<SourceEntry>& source_table() {
   static const std::vector<SourceEntry> table = {
+      {"living-room", "built in, rendered: living-room/0 to living-room/3", is_living_room,
+       open_living_room, living_room_unavailable()},
       {"icl-nuim", "ICL-NUIM as published: a folder of scene_NN_NNNN.depth, .png, .txt",
        is_icl_nuim, open_icl_nuim},
       {"icl-nuim-tum", "ICL-NUIM for TUM tools: a folder with depth/N.png and *.gt.freiburg",

@@ -96,6 +96,8 @@ struct SourceEntry {
   /// Whether `sequence` (a path, or a built-in name) looks like this layout.
   bool (*matches)(const std::string& sequence);
   std::unique_ptr<Source> (*open)(const std::string& sequence, const SourceParameters&);
+  /// Why it cannot be opened in this build, and what would help; empty when it can.
+  std::string_view unavailable = {};
 };
 
 /// In the order of detection.
