@@ -95,6 +95,7 @@ void require_command(const CLI::App& app, const std::vector<Command>& commands) 
   if (extras.empty()) throw UsageError("no command; 'slambench --help' lists them");
   if (extras.front().starts_with("-")) reject_extras(app);
   std::vector<std::string_view> known;
+  known.reserve(commands.size());
   for (const Command& command : commands) known.emplace_back(command.name);
   throw UsageError(
       fmt::format("unknown command '{}'{}", extras.front(), suggestion(extras.front(), known)));

@@ -17,6 +17,7 @@
 #include "config/config_file.h"
 #include "config/presets.h"
 #include "config/settings.h"
+#include "help.h"
 #include "interrupt.h"
 #include "io/files.h"
 #include "meters/clock.h"
@@ -33,8 +34,6 @@ namespace slambench {
 namespace {
 
 constexpr const char* default_sequence = "living-room/2";
-/// So many first frames of it keep the default run under a minute on two cores.
-constexpr const char* default_frames = "300";
 
 constexpr const char* footer =
     "Examples:\n"
@@ -79,10 +78,7 @@ RunPlan make_plan(RunArguments& arguments) {
   arguments.options.apply(plan.settings);
 
   if (plan.sequence.empty() && file && file->sequence) plan.sequence = *file->sequence;
-  if (plan.sequence.empty()) {
-    plan.sequence = default_sequence;
-    plan.settings.suggest({{"frames", default_frames}});
-  }
+  if (plan.sequence.empty()) plan.sequence = default_sequence;
   return plan;
 }
 
@@ -159,11 +155,23 @@ void write_outputs(const Record& record, System& system, const OutputParameters&
   if (!output.dump_volume.empty()) system.dump_volume(output.dump_volume);
 }
 
-ExitStatus report(const Record& record, const std::string& folder, const OutputParameters& output) {
+/// What the reader of the sequence had to assume, in the columns of the summary.
+std::string notes_text(const SequenceInfo& info) {
+  constexpr std::size_t label_width = 12, page_width = 80;
+  std::string text;
+  for (const std::string& note : info.notes) {
+    text += fmt::format("{:{}}{}\n", "note", label_width,
+                        wrapped(note, page_width - label_width, label_width));
+  }
+  return text;
+}
+
+ExitStatus report(const Record& record, const SequenceInfo& info, const std::string& folder,
+                  const OutputParameters& output) {
   if (output.json) {
     print(record_json(record));
   } else if (!output.quiet) {
-    print(summary_text(record, folder, output_takes_colors()));
+    print(summary_text(record, folder, output_takes_colors()) + notes_text(info));
   }
   if (!record.complete) {
     throw Error(ExitStatus::failed,
@@ -217,7 +225,7 @@ ExitStatus run(RunArguments& arguments) {
   }
   judge(info, &record);
   write_outputs(record, system, p.output, *folder);
-  return report(record, folder->path(), p.output);
+  return report(record, info, folder->path(), p.output);
 }
 
 }  // namespace
@@ -227,8 +235,9 @@ Action add_run(CLI::App& command, const std::string& command_line) {
   arguments->command_line = command_line;
   command.add_option("SEQUENCE", arguments->sequence,
                      fmt::format("folder or file of a recording, or a built-in sequence; layouts "
-                                 "and names: slambench list (default {}, its first {} frames)",
-                                 default_sequence, default_frames));
+                                 "and names: slambench list (default {}: under a minute on two "
+                                 "cores)",
+                                 default_sequence));
   command.add_option("-i,--input-file", arguments->input_file, "the sequence, as SEQUENCE")
       ->type_name("PATH");
   std::string presets;

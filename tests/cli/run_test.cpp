@@ -78,7 +78,8 @@ TEST_F(RunTest, WritesResultsAndASummaryOf80Columns) {
   const testing::Outcome outcome = run(small());
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.err, IsEmpty()) << "no progress bar where no terminal is";
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("raycast"), HasSubstr("frames/s"), HasSubstr("out")));
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("raycast"), HasSubstr("frames/s"), HasSubstr("out"),
+                                 HasSubstr("note        no ground truth was found")));
   EXPECT_THAT(outcome.out, Not(HasSubstr("\033"))) << "no colours where no terminal is";
   std::istringstream lines(outcome.out);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
@@ -288,7 +289,8 @@ TEST_F(RunTest, WrongGroundTruthIsBadInput) {
 }
 
 TEST_F(RunTest, TooBigAVolumeIsUnavailable) {
-  expect_error(small({"-v", "4096"}), 4, HasSubstr("volume"));
+  expect_error(small({"-v", "4096", "--map", "grid"}), 4,
+               HasSubstr("volume of 4096x4096x4096 voxels: "));
 }
 
 TEST_F(RunTest, UnwritableOutputIsAnError) {
