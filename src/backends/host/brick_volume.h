@@ -99,6 +99,8 @@ class BrickVolume final : public VersionedStorage {
   const std::int32_t* plane_table() const { return distance_planes_.data(); }
   const std::int16_t* planes() const { return distances_.plane(0); }
   std::size_t planes_used() const { return distances_.used(); }
+  /// The brick that owns a plane other than 0.
+  std::int32_t owner(std::size_t plane) const { return owners_[plane]; }
 
   /// A byte a brick, not 0 when a sample whose lower corner lies in it can be other than +1: when
   /// it or a neighbour above it along any axes has distances of its own. Three bytes follow the

@@ -117,13 +117,22 @@ void OpenmpBackend::do_track(DeviceImage<TrackData>& rows, const DeviceImage<Flo
                              const TrackParameters& parameters) {
   const TrackInput input = {
       pixels(vertices),      pixels(normals),     vertices.size, pixels(model_vertices),
-      pixels(model_normals), model_vertices.size, parameters};
+      pixels(model_normals), nullptr, model_vertices.size, parameters};
   for_rows(rows.size.height, [&](Rows part) { track_rows(pixels(rows), input, part); });
 }
 
 Reduction OpenmpBackend::do_reduce(const DeviceImage<TrackData>& rows) {
   const TrackData* track = pixels(rows);
   return sum_bands(rows.size, [&](Rows band) { return reduce_band(track, rows.size, band); });
+}
+
+const ModelPoint* OpenmpBackend::packed_model(const DeviceImage<Float3>& vertices,
+                                              const DeviceImage<Float3>& normals) {
+  model_.resize(vertices.size.count());
+  for_rows(vertices.size.height, [&](Rows rows) {
+    pack_model_rows(model_.data(), pixels(vertices), pixels(normals), vertices.size, rows);
+  });
+  return model_.data();
 }
 
 AlignResult OpenmpBackend::do_align(const AlignInput& input, double condition) {
@@ -135,6 +144,7 @@ AlignResult OpenmpBackend::do_align(const AlignInput& input, double condition) {
                       {},
                       pixels(*input.model_vertices),
                       pixels(*input.model_normals),
+                      packed_model(*input.model_vertices, *input.model_normals),
                       input.model_vertices->size,
                       input.parameters};
   for (std::size_t level = input.iterations.size(); level-- > 0;) {
@@ -202,8 +212,12 @@ void OpenmpBackend::integrate_bricks(BrickVolume& volume, const IntegrateInput& 
   volume.refresh_occupancy();
 }
 
-void OpenmpBackend::march(const RaycastOutput& output, const Volume& volume,
-                          const RaycastParameters& parameters) const {
+void OpenmpBackend::march(RaycastOutput output, const Volume& volume,
+                          const RaycastParameters& parameters) {
+  if (volume.map == MapKind::bricks) {
+    start_.build(brick_view(volume), parameters, output.size, parallel_);
+    output.start = &start_;
+  }
   with_map(volume, [&](const auto& map) {
     const bool reaches = raycast_reaches(map);
     for_rows(output.size.height, [&](Rows rows) {

@@ -71,20 +71,23 @@ class OpenmpBackend final : public HostBackend {
   /// The sums of f(band) over the bands of an image, in their order.
   template <class F>
   Reduction sum_bands(Size size, const F& f);
+  const ModelPoint* packed_model(const DeviceImage<Float3>& vertices,
+                                 const DeviceImage<Float3>& normals);
   void integrate_bricks(BrickVolume& volume, const IntegrateInput& input);
   /// raycast in parallel.
-  void march(const RaycastOutput& output, const Volume& volume,
-             const RaycastParameters& parameters) const;
+  void march(RaycastOutput output, const Volume& volume, const RaycastParameters& parameters);
   /// Says what `view_` holds now.
   void hold(const Volume& volume, const RaycastParameters& parameters, Size size);
   /// Makes `view_` this view.
   void see(const Volume& volume, const RaycastParameters& view, Size size);
 
   Parallel parallel_;
+  std::vector<ModelPoint> model_;                  ///< of the alignment in progress
   std::vector<Reduction> bands_;                   ///< of the reduction in progress
   DepthPyramid depth_;                             ///< of the integration in progress
   std::vector<std::vector<std::int32_t>> varied_;  ///< bricks to look at, per slice of bricks
   std::vector<std::int32_t> all_varied_;
+  StartDepths start_;  ///< of the raycast in progress
   View view_;
   bool renders_ = false;  ///< render_volume has been asked for: views are worth keeping
 };

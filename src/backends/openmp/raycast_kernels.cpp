@@ -12,6 +12,10 @@
 // Included once per target.
 #include "backends/openmp/simd-inl.h"
 
+// Whether a vector can hold a table of eight entries.
+#undef SLAMBENCH_EIGHT_LANES
+#define SLAMBENCH_EIGHT_LANES (HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3)
+
 HWY_BEFORE_NAMESPACE();
 namespace slambench {
 namespace HWY_NAMESPACE {
@@ -59,6 +63,19 @@ HWY_INLINE Floats lerp(Floats a, Floats b, Floats t) {
   return hn::Add(hn::Mul(a, hn::Sub(set(1.0f), t)), hn::Mul(b, t));
 }
 
+/// Calls f(x, y, z) for the positions of a 4^3 cube that central differences at its inner 2^3 read.
+template <class F>
+HWY_INLINE void for_gradient(const F& f) {
+  for (int z = 0; z < 4; ++z) {
+    for (int y = 0; y < 4; ++y) {
+      for (int x = 0; x < 4; ++x) {
+        const int outer = (x == 0 || x == 3) + (y == 0 || y == 3) + (z == 0 || z == 3);
+        if (outer <= 1) f(x, y, z);
+      }
+    }
+  }
+}
+
 /// The flat volume for lanes.
 class GridLanes {
  public:
@@ -71,6 +88,12 @@ class GridLanes {
 
   Int3 resolution() const { return n_; }
   Float3 size_m() const { return size_m_; }
+
+  /// The values at voxels of four positions along each axis, but for the corners and edges of that
+  /// cube.
+  HWY_INLINE void around(const Ints* x, const Ints* y, const Ints* z, Floats (*value)[4][4]) const {
+    for_gradient([&](int i, int j, int k) { value[k][j][i] = tsdf(x[i], y[j], z[k]); });
+  }
 
   HWY_INLINE Floats tsdf(Ints x, Ints y, Ints z) const {
     const Ints row = hn::Add(hn::Mul(z, set_int(n_.y)), y);
@@ -125,9 +148,70 @@ class BrickLanes {
     return hn::And(bytes, set_int(0xff));
   }
 
-  HWY_INLINE Floats tsdf(Ints x, Ints y, Ints z) const {
-    const Ints plane = plane_of(hn::ShiftRight<3>(x), hn::ShiftRight<3>(y), hn::ShiftRight<3>(z));
-    return hn::ConvertTo(f32, low_half(pair_at(plane, x, row_in(y, z))));
+  /// The planes of 2^3 bricks, in the lanes of one vector: where all lanes lie in them, as those
+  /// of neighbouring rays do, eight reads take the place of many gathers.
+  struct NearPlanes {
+    Int3 first;
+    Ints table;
+
+    HWY_INLINE Ints at(Ints bx, Ints by, Ints bz) const {
+#if SLAMBENCH_EIGHT_LANES
+      const Ints x = hn::Sub(bx, set_int(first.x));
+      const Ints y = hn::Sub(by, set_int(first.y)), z = hn::Sub(bz, set_int(first.z));
+      const Ints entry = hn::Add(hn::Add(x, hn::ShiftLeft<1>(y)), hn::ShiftLeft<2>(z));
+      return hn::TableLookupLanes(table, hn::IndicesFromVec(i32, entry));
+#else
+      (void)bx, (void)by, (void)bz;
+      return table;
+#endif
+    }
+  };
+
+  /// Fills `near` when all bricks between the lower and the upper ones are within 2^3.
+  HWY_INLINE bool find_near(Ints low_x, Ints low_y, Ints low_z, Ints high_x, Ints high_y,
+                            Ints high_z, NearPlanes* near) const {
+#if SLAMBENCH_EIGHT_LANES
+    const Int3 first = {hn::GetLane(hn::MinOfLanes(i32, low_x)),
+                        hn::GetLane(hn::MinOfLanes(i32, low_y)),
+                        hn::GetLane(hn::MinOfLanes(i32, low_z))};
+    const Ints farthest =
+        hn::Max(hn::Max(hn::Sub(high_x, set_int(first.x)), hn::Sub(high_y, set_int(first.y))),
+                hn::Sub(high_z, set_int(first.z)));
+    if (!hn::AllTrue(i32, hn::Lt(farthest, set_int(2)))) return false;
+    const int step_x = first.x + 1 < bricks_.x ? 1 : 0;
+    const int step_y = first.y + 1 < bricks_.y ? bricks_.x : 0;
+    const int step_z = first.z + 1 < bricks_.z ? bricks_.x * bricks_.y : 0;
+    const std::int32_t* corner =
+        planes_ + (static_cast<std::ptrdiff_t>(first.z) * bricks_.y + first.y) * bricks_.x +
+        first.x;
+    alignas(64) std::int32_t around[virtual_lanes] = {};
+    for (int i = 0; i < 8; ++i) {
+      around[i] = corner[(i & 1) * step_x + ((i >> 1) & 1) * step_y + (i >> 2) * step_z];
+    }
+    near->first = first;
+    near->table = hn::Load(i32, around);
+    return true;
+#else
+    (void)low_x, (void)low_y, (void)low_z, (void)high_x, (void)high_y, (void)high_z, (void)near;
+    return false;
+#endif
+  }
+
+  /// The values at voxels of four positions along each axis, but for the corners and edges of that
+  /// cube.
+  HWY_INLINE void around(const Ints* x, const Ints* y, const Ints* z, Floats (*value)[4][4]) const {
+    Ints bx[4], by[4], bz[4];
+    for (int i = 0; i < 4; ++i) {
+      bx[i] = hn::ShiftRight<3>(x[i]);
+      by[i] = hn::ShiftRight<3>(y[i]);
+      bz[i] = hn::ShiftRight<3>(z[i]);
+    }
+    NearPlanes near;
+    const bool is_near = find_near(bx[0], by[0], bz[0], bx[3], by[3], bz[3], &near);
+    for_gradient([&](int i, int j, int k) {
+      const Ints plane = is_near ? near.at(bx[i], by[j], bz[k]) : plane_of(bx[i], by[j], bz[k]);
+      value[k][j][i] = hn::ConvertTo(f32, low_half(pair_at(plane, x[i], row_in(y[j], z[k]))));
+    });
   }
 
   HWY_INLINE CornerValues corners(const CellLanes& cell) const {
@@ -142,8 +226,10 @@ class BrickLanes {
 
     CornerValues values;
     Ints plane[2][2], other[2][2];
-    planes_around(bx[0], by, bz, across_y, across_z, plane);
-    planes_around(bx[1], by, bz, across_y && across_x, across_z && across_x, other);
+    if (!near_planes(bx, by, bz, across_x, plane, other)) {
+      planes_around(bx[0], by, bz, across_y, across_z, plane);
+      planes_around(bx[1], by, bz, across_y && across_x, across_z && across_x, other);
+    }
     for (int z = 0; z < 2; ++z) {
       for (int y = 0; y < 2; ++y) {
         const Ints row = row_in(cell.y[y], cell.z[z]);
@@ -159,6 +245,20 @@ class BrickLanes {
   }
 
  private:
+  /// The planes of the bricks of the cell's corners, [z][y], at the lower and upper x, where all
+  /// lanes lie within two bricks along each axis. False where they do not.
+  HWY_INLINE bool near_planes(const Ints* bx, const Ints* by, const Ints* bz, bool across_x,
+                              Ints (*plane)[2], Ints (*other)[2]) const {
+    NearPlanes near;
+    if (!find_near(bx[0], by[0], bz[0], bx[1], by[1], bz[1], &near)) return false;
+    for (int k = 0; k < 2; ++k) {
+      for (int j = 0; j < 2; ++j) {
+        plane[k][j] = near.at(bx[0], by[j], bz[k]);
+        if (across_x) other[k][j] = near.at(bx[1], by[j], bz[k]);
+      }
+    }
+    return true;
+  }
   /// The planes of the bricks of the cell's corners, [z][y], at one x; equal ones are read once.
   HWY_INLINE void planes_around(Ints bx, const Ints* by, const Ints* bz, bool across_y,
                                 bool across_z, Ints (*plane)[2]) const {
@@ -229,14 +329,7 @@ HWY_NOINLINE Vec3 gradient(const Map& map, Vec3 p) {
     z[i] = clamp(hn::Add(base.z, set_int(i - 1)), set_int(n.z - 1));
   }
   Floats value[4][4][4];
-  for (int k = 0; k < 4; ++k) {
-    for (int j = 0; j < 4; ++j) {
-      for (int i = 0; i < 4; ++i) {
-        const int outer = (i == 0 || i == 3) + (j == 0 || j == 3) + (k == 0 || k == 3);
-        if (outer <= 1) value[k][j][i] = map.tsdf(x[i], y[j], z[k]);
-      }
-    }
-  }
+  map.around(x, y, z, value);
   const Floats one = set(1.0f);
   Vec3 sum = {hn::Zero(f32), hn::Zero(f32), hn::Zero(f32)};
   for (int corner = 0; corner < 8; ++corner) {
@@ -268,10 +361,18 @@ HWY_INLINE void clip_axis(float origin, Floats direction, float size, Floats* ne
   *near_t = hn::IfThenElse(along, *near_t, nearer);
 }
 
+/// Whether the sample of any active lane can be other than +1.
+template <class Map>
+HWY_INLINE bool can_be_other(const Map& map, const CellBase& cell, FloatMask active) {
+  const auto occupied = hn::Ne(map.occupied(cell), hn::Zero(i32));
+  return !hn::AllFalse(i32, hn::And(occupied, hn::RebindMask(i32, active)));
+}
+
 /// slambench::find_surface of the active lanes; the hits' lanes of `hit` are set.
 template <class Map>
 HWY_INLINE FloatMask find_surface(const Map& map, Float3 origin, Vec3 direction,
-                                  const RaycastParameters& p, FloatMask active, Vec3* hit) {
+                                  const RaycastParameters& p, float start_m, FloatMask active,
+                                  Vec3* hit) {
   const Int3 n = map.resolution();
   const Float3 size_m = map.size_m();
   Floats t = set(p.near_m), far_t = set(p.far_m);
@@ -286,11 +387,23 @@ HWY_INLINE FloatMask find_surface(const Map& map, Float3 origin, Vec3 direction,
   Floats step = set(p.large_step_m), previous = set(1.0f), previous_t = t, hit_t = zero;
   FloatMask hits = hn::Lt(zero, zero);
   bool first = true, skipped = false;
+  if constexpr (Map::skips) {
+    // No sample before the start depth but +1: the march adds up the same depths without them.
+    while (!hn::AllFalse(f32, active) &&
+           hn::AllTrue(f32, hn::Or(hn::Not(active), hn::Lt(hn::Add(t, step), set(start_m))))) {
+      skipped = true;
+      previous_t = t;
+      t = hn::Add(t, step);
+      active = hn::And(active, hn::Lt(t, far_t));
+    }
+    first = !skipped;
+  }
   while (!hn::AllFalse(f32, active)) {
     CellBase cell = cell_base(n, size_m, add(start, mul(direction, t)));
     if constexpr (Map::skips) {
-      const auto empty = hn::Eq(map.occupied(cell), hn::Zero(i32));
-      if (hn::AllTrue(i32, hn::Or(empty, hn::RebindMask(i32, hn::Not(active))))) {
+      // In the band there is nothing to skip.
+      const bool in_band = !hn::AllFalse(f32, hn::And(active, hn::Lt(previous, set(0.99f))));
+      if (!in_band && !can_be_other(map, cell, active)) {
         // Every sample here is +1: the march goes on as if each had been taken.
         first = false;
         skipped = true;
@@ -319,7 +432,7 @@ HWY_INLINE FloatMask find_surface(const Map& map, Float3 origin, Vec3 direction,
     step = hn::IfThenElse(hn::Lt(value, slow_below), small_step, step);
     skipped = false;
     previous = value;
-    t = hn::Add(t, step);
+    t = hn::IfThenElse(active, hn::Add(t, step), t);  // lanes that are done stay near the others
     active = hn::And(active, hn::Lt(t, far_t));
   }
   *hit = add(start, mul(direction, hit_t));
@@ -361,8 +474,9 @@ HWY_INLINE void raycast_packet(const Map& map, const RaycastParameters& p, const
   const Vec3 none = {hn::Zero(f32), hn::Zero(f32), hn::Zero(f32)};
   Vec3 vertex = none, normal = set(Float3{invalid_normal, 0.0f, 0.0f});
   Vec3 hit;
-  const FloatMask hits = find_surface(map, p.T_volume_camera.translation,
-                                      rotate(p.T_volume_camera, ray), p, active, &hit);
+  const FloatMask hits =
+      find_surface(map, p.T_volume_camera.translation, rotate(p.T_volume_camera, ray), p,
+                   out.start != nullptr ? out.start->at(x0, y0) : 0, active, &hit);
   if (!hn::AllFalse(f32, hits)) {
     vertex = select(hits, hit, none);
     const Vec3 slope = gradient(map, vertex);

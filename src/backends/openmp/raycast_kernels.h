@@ -4,6 +4,7 @@
 
 #include "backends/host/brick_volume.h"
 #include "backends/openmp/image_kernels.h"
+#include "backends/openmp/start_depths.h"
 #include "kernels/volume_maths.h"
 
 /// raycast and the shading of render_volume over rows [begin, end), on the widest vectors of this
@@ -15,7 +16,8 @@ struct RaycastOutput {
   Float3* vertices = nullptr;
   Float3* normals = nullptr;
   Size size;
-  bool only_misses = false;  ///< leave pixels alone whose normal is valid
+  bool only_misses = false;            ///< leave pixels alone whose normal is valid
+  const StartDepths* start = nullptr;  ///< of this view, where there are some
 };
 
 /// Rows of several of these keep packets of rays square.

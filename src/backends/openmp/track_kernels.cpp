@@ -34,6 +34,26 @@ HWY_INLINE Ints outcome_where(FloatMask mask, TrackOutcome yes, Ints no) {
   return hn::IfThenElse(hn::RebindMask(i32, mask), set_int(static_cast<int>(yes)), no);
 }
 
+/// The model's points and normals at a pixel a lane.
+HWY_INLINE void read_model(const TrackInput& in, Ints pixel, Vec3* vertex, Vec3* normal) {
+  if (in.model == nullptr) {
+    *vertex = gather(in.model_vertices, pixel);
+    *normal = gather(in.model_normals, pixel);
+    return;
+  }
+  alignas(64) std::int32_t index[virtual_lanes];
+  alignas(64) float first[4 * virtual_lanes], second[4 * virtual_lanes];
+  hn::Store(pixel, i32, index);
+  for (int i = 0; i < lanes(); ++i) {
+    const auto* point = reinterpret_cast<const unsigned char*>(in.model + index[i]);
+    std::memcpy(first + static_cast<std::ptrdiff_t>(4) * i, point, 16);
+    std::memcpy(second + static_cast<std::ptrdiff_t>(4) * i, point + 16, 16);
+  }
+  Floats unused[2];
+  hn::LoadInterleaved4(f32, first, vertex->x, vertex->y, vertex->z, normal->x);
+  hn::LoadInterleaved4(f32, second, normal->y, normal->z, unused[0], unused[1]);
+}
+
 /// slambench::track_point.
 HWY_INLINE TrackLanes track_lanes(Vec3 vertex, Vec3 normal, const TrackInput& in) {
   const TrackParameters& p = in.parameters;
@@ -43,8 +63,9 @@ HWY_INLINE TrackLanes track_lanes(Vec3 vertex, Vec3 normal, const TrackInput& in
   const FloatMask inside = project(apply(p.T_model_volume, point), p.model_camera, in.model_size,
                                    min_projection_depth_m, &x, &y);
   const Ints pixel = hn::Add(hn::Mul(y, set_int(in.model_size.width)), x);
-  const Vec3 model_normal = gather(in.model_normals, pixel);
-  const Vec3 difference = sub(gather(in.model_vertices, pixel), point);
+  Vec3 model_vertex, model_normal;
+  read_model(in, pixel, &model_vertex, &model_normal);
+  const Vec3 difference = sub(model_vertex, point);
   const FloatMask modelled = hn::Ne(model_normal.x, set(invalid_normal));
   const FloatMask near = hn::Le(length(difference), set(p.distance_threshold_m));
   const FloatMask parallel =
@@ -232,6 +253,15 @@ Reduction reduce_band(const TrackData* track, Size size, Rows rows) {
 
 Reduction track_reduce_band(const TrackInput& input, Rows rows) {
   return HWY_DYNAMIC_DISPATCH(track_reduce)(input, rows);
+}
+
+void pack_model_rows(ModelPoint* model, const Float3* vertices, const Float3* normals, Size size,
+                     Rows rows) {
+  const auto width = static_cast<std::size_t>(size.width);
+  const std::size_t end = static_cast<std::size_t>(rows.end) * width;
+  for (std::size_t i = static_cast<std::size_t>(rows.begin) * width; i < end; ++i) {
+    model[i] = {vertices[i], normals[i].x, normals[i].y, normals[i].z, {}};
+  }
 }
 
 void add(const Reduction& band, Reduction* sum) {
