@@ -106,7 +106,8 @@ Action add_verify(CLI::App& command) {
       .add_option("--threads", arguments->threads,
                   "threads of a host backend; 0: one per core; held against runs with 3")
       ->check(CLI::Range(0, 4096));
-  command.add_option("--seed", arguments->seed, "of the made-up inputs (default 1)");
+  command.add_option("--seed", arguments->seed, "of the made-up inputs (default 1)")
+      ->check(CLI::NonNegativeNumber);
   command.add_option("--sequence", arguments->sequence,
                      "real frames in addition: a path or a built-in name");
   command.add_option("--frames", arguments->frames, "how many of them (default 12)")

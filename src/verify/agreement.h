@@ -81,7 +81,7 @@ struct Agreement {
   MapKind map = MapKind::grid;
   Verdict verdict = Verdict::unsupported;
   int cases = 0;
-  std::optional<Deviation> closest;  ///< the quantity that used most of its tolerance
+  std::optional<Deviation> closest;  ///< what used most of its tolerance; none: no difference
   std::vector<Deviation> failures;   ///< the first few cases of each quantity
 };
 

@@ -33,7 +33,8 @@ Trial::Trial(const Tolerance& tolerance, Candidate& candidate, MapKind map,
 
 void Trial::at_most(std::string_view quantity, double found, const std::string& where) {
   Deviation deviation{input_, quantity, found, tolerance_.allowed(quantity), where};
-  if (!result_.closest || used(deviation) > used(*result_.closest)) result_.closest = deviation;
+  const double closest = result_.closest ? used(*result_.closest) : 0;
+  if (used(deviation) > closest) result_.closest = deviation;
   if (found <= deviation.allowed) return;  // a NaN is not within any limit
   result_.verdict = Verdict::disagrees;
   const auto known =
