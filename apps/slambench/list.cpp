@@ -13,6 +13,8 @@
 #include "config/presets.h"
 #include "help.h"
 #include "kernels/kernel.h"
+#include "meters/clock.h"
+#include "meters/machine.h"
 #include "parameter_options.h"
 #include "terminal.h"
 
@@ -208,9 +210,32 @@ std::string parameter_markdown() {
   return text;
 }
 
+Json as_json(const MachineCeiling& ceiling) {
+  return {{"threads", ceiling.threads},
+          {"copy_bytes_per_s", ceiling.copy_bytes_per_s},
+          {"fma_flops_per_s", ceiling.fma_flops_per_s},
+          {"instruction_set", ceiling.instruction_set}};
+}
+
+std::string ceiling_text(const MachineCeiling& ceiling) {
+  return table(
+      fmt::format("What {} threads reach here", ceiling.threads),
+      {{"copy bandwidth", fmt::format("{:.1f} GB/s", ceiling.copy_bytes_per_s * 1e-9),
+        "bytes read and written, of arrays larger than the caches"},
+       {"multiply-add rate", fmt::format("{:.0f} GFLOP/s", ceiling.fma_flops_per_s * 1e-9),
+        fmt::format("single precision from registers, {}", ceiling.instruction_set)}});
+}
+
 struct ListOptions {
-  bool json = false, parameters = false, markdown = false;
+  bool json = false, parameters = false, markdown = false, machine = false;
+  int threads = 0;
 };
+
+ExitStatus list_machine(const ListOptions& options) {
+  const MachineCeiling ceiling = measure_machine(steady_clock(), options.threads);
+  print(options.json ? as_json(ceiling).dump(2) + "\n" : ceiling_text(ceiling));
+  return ExitStatus::ok;
+}
 
 }  // namespace
 
@@ -218,11 +243,20 @@ Action add_list(CLI::App& command) {
   auto options = std::make_shared<ListOptions>();
   command.add_flag("--parameters", options->parameters, "all parameters of a run as a table");
   command.add_flag("--markdown", options->markdown, "with --parameters: as docs/parameters.md");
-  command.add_flag("--json", options->json, "everything as one JSON object");
+  command.add_flag("--machine", options->machine,
+                   "measure what the cores reach: copy bandwidth and multiply-add rate");
+  command.add_option("--threads", options->threads, "with --machine; 0: one per core (default)")
+      ->check(CLI::Range(0, 4096));
+  command.add_flag("--json", options->json, "everything, or the machine, as one JSON object");
   return [options] {
     if (options->markdown && !options->parameters) {
       throw UsageError("--markdown: needs --parameters");
     }
+    if (options->machine && options->parameters) {
+      throw UsageError("--machine and --parameters: choose one");
+    }
+    if (options->threads > 0 && !options->machine) throw UsageError("--threads: needs --machine");
+    if (options->machine) return list_machine(*options);
     if (options->json) {
       print(everything().dump(2) + "\n");
     } else if (options->markdown) {

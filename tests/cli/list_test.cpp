@@ -88,6 +88,18 @@ TEST_F(ListTest, TheDocumentOfParametersIsUpToDate) {
       << "renew it: slambench list --parameters --markdown > docs/parameters.md";
 }
 
+TEST_F(ListTest, MeasuresTheMachine) {
+  const std::string text = output({"list", "--machine", "--threads", "1"});
+  expect_80_columns(text);
+  EXPECT_THAT(text, AllOf(HasSubstr("copy bandwidth"), HasSubstr("GB/s"), HasSubstr("GFLOP/s")));
+  const Json json = Json::parse(output({"list", "--machine", "--json"}));
+  EXPECT_GE(json.at("threads"), 1);
+  EXPECT_GT(json.at("copy_bytes_per_s"), 1e8);
+  EXPECT_GT(json.at("fma_flops_per_s"), 1e8);
+  EXPECT_EQ(program_.run({"list", "--threads", "2"}).status, 2);
+  EXPECT_EQ(program_.run({"list", "--machine", "--parameters"}).status, 2);
+}
+
 TEST_F(ListTest, HelpAndVersionGoToStandardOutput) {
   EXPECT_THAT(output({"--help"}), StartsWith("Usage: slambench COMMAND"));
   EXPECT_THAT(output({"run", "-h"}), StartsWith("Usage: slambench run [SEQUENCE] [OPTIONS]"));
