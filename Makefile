@@ -31,7 +31,10 @@ build: dependencies
 	@cmake --preset release
 	@cmake --build --preset release --parallel $(JOBS)
 
-run: build
+# Without the tests, which take longer to build than the program.
+run: dependencies
+	@cmake --preset release
+	@cmake --build --preset release --parallel $(JOBS) --target slambench
 	@build/release/apps/slambench/slambench run $(ARGS)
 
 test: build

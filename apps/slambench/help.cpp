@@ -48,6 +48,13 @@ std::string usage(const CLI::App& command) {
   return fmt::format("Usage: {} [OPTIONS]\n", text);
 }
 
+std::string as_sentence(std::string text) {
+  if (text.empty()) return text;
+  if (text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  if (!text.ends_with('.')) text += '.';
+  return text;
+}
+
 std::string rows(const CLI::App& command, const std::string& title,
                  const std::function<bool(const CLI::Option*)>& wanted) {
   std::string text;
@@ -80,7 +87,7 @@ std::string wrapped(std::string_view text, std::size_t width, std::size_t indent
 
 std::string help_text(const CLI::App& command) {
   std::string text = usage(command);
-  text += fmt::format("\n{}\n", wrapped(command.get_description(), page_width, 0));
+  text += fmt::format("\n{}\n", wrapped(as_sentence(command.get_description()), page_width, 0));
 
   text += rows(command, "Arguments", [](const CLI::Option* o) { return o->get_positional(); });
   const auto subcommands = command.get_subcommands([](const CLI::App*) { return true; });

@@ -102,7 +102,7 @@ void require_command(const CLI::App& app, const std::vector<Command>& commands) 
 }
 
 ExitStatus run(int argc, char** argv) {
-  CLI::App app{"A benchmark of dense visual SLAM: speed, accuracy and energy.", "slambench"};
+  CLI::App app{"A benchmark of dense visual SLAM: how fast and how accurate it is", "slambench"};
   app.formatter_fn([](const CLI::App* command, const std::string&, CLI::AppFormatMode) {
     return help_text(*command);
   });
