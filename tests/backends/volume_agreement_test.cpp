@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <cstring>
 #include <memory>
@@ -152,6 +153,46 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"WeightsSaturate", {{32, 32, 32}, {2, 2, 2}, 12, 3}},
                       Case{"SmallerThanABrick", {{5, 6, 7}, {2, 2, 2}, 6, 100}}),
     [](const auto& test) { return std::string(test.param.name); });
+
+/// Kernels of one instruction set, as long as it lives.
+class Only {
+ public:
+  explicit Only(std::int64_t target) { choose(target); }
+  ~Only() { choose(0); }
+  Only(const Only&) = delete;
+  Only& operator=(const Only&) = delete;
+
+ private:
+  static void choose(std::int64_t target) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+};
+
+TEST(InstructionSets, AllGiveTheSameBits) {
+#if HWY_ARCH_X86
+  const std::int64_t targets[] = {HWY_SCALAR, HWY_SSE4, HWY_AVX2, HWY_AVX3};
+#else
+  const std::int64_t targets[] = {HWY_SCALAR, HWY_NEON};
+#endif
+  const std::int64_t supported = hwy::SupportedTargets() | HWY_SCALAR;
+  const Fusion fusion{{61, 50, 67}, {2, 2, 2}, 7, 100};
+  const auto parameters = ray_parameters(fusion.size_m, fusion.resolution, 4);
+  SerialBackend serial;
+  const Volume expected_volume = fused(serial, MapKind::grid, fusion);
+  const std::vector<Voxel> expected = voxels_of(serial, expected_volume);
+  const Surface surface = raycast(serial, expected_volume, parameters);
+  for (const std::int64_t target : targets) {
+    if ((supported & target) == 0) continue;
+    const Only only(target);
+    for (const MapInfo& map : map_table()) {
+      OpenmpBackend openmp(2);
+      const Volume volume = fused(openmp, map.map, fusion);
+      EXPECT_EQ(voxels_of(openmp, volume), expected) << hwy::TargetName(target);
+      EXPECT_EQ(raycast(openmp, volume, parameters), surface) << hwy::TargetName(target);
+    }
+  }
+}
 
 /// The truth that lazy free space rests on.
 TEST(Bricks, FreeSpaceIsAFixedPointWhateverTheWeight) {

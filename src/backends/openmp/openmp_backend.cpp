@@ -116,8 +116,8 @@ void OpenmpBackend::do_track(DeviceImage<TrackData>& rows, const DeviceImage<Flo
                              const DeviceImage<Float3>& model_normals,
                              const TrackParameters& parameters) {
   const TrackInput input = {
-      pixels(vertices),      pixels(normals),     vertices.size, pixels(model_vertices),
-      pixels(model_normals), nullptr, model_vertices.size, parameters};
+      pixels(vertices),      pixels(normals), vertices.size,       pixels(model_vertices),
+      pixels(model_normals), nullptr,         model_vertices.size, parameters};
   for_rows(rows.size.height, [&](Rows part) { track_rows(pixels(rows), input, part); });
 }
 
