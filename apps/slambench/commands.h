@@ -17,6 +17,7 @@ using Action = std::function<ExitStatus()>;
 /// `command_line` is the whole of it, for the record.
 Action add_run(CLI::App& command, const std::string& command_line);
 Action add_evaluate(CLI::App& command);
+Action add_generate(CLI::App& command);
 Action add_info(CLI::App& command);
 Action add_list(CLI::App& command);
 Action add_verify(CLI::App& command);

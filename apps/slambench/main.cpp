@@ -31,6 +31,7 @@ std::vector<Command> command_table(const std::string& command_line) {
        [command_line](CLI::App& app) { return add_run(app, command_line); }},
       {"evaluate", "compare two trajectories: absolute trajectory and relative pose error",
        add_evaluate},
+      {"generate", "render a sequence, of the living room or an own mesh, to disk", add_generate},
       {"info", "what a sequence has: frames, camera, axes, ground truth, suggestions", add_info},
       {"list", "what there is: backends, maps, kernels, layouts, presets, parameters", add_list},
       {"verify", "whether the backends compute what the reference computes", add_verify},

@@ -10,6 +10,8 @@
 #include <regex>
 
 #include "core/error.h"
+#include "io/files.h"
+#include "io/text.h"
 #include "io/trajectory_file.h"
 
 namespace slambench {
@@ -147,6 +149,25 @@ std::vector<std::string> folder_entries(const std::string& folder) {
 void set_axes_y_up(SequenceInfo* info) {
   info->own_from_camera = Eigen::Vector3d(1, -1, 1).asDiagonal();
   info->axes = "x right, y up, z forward";
+}
+
+SourceParameters with_camera_file(SourceParameters parameters, const std::string& file) {
+  if (parameters.camera || !is_present(file)) return parameters;
+  const std::string text = read_file(file);
+  const auto lines = text_lines(text);
+  if (lines.size() != 1 || lines[0].fields.size() != 4) {
+    throw InputError(file, "contents", quote(text), "one line: fx fy cx cy");
+  }
+  parameters.camera.emplace();
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto number = parse_finite(lines[0].fields[i]);
+    if (!number || (i < 2 && !(*number > 0))) {
+      throw InputError(file, fmt::format("line {}", lines[0].number), quote(lines[0].fields[i]),
+                       i < 2 ? "a focal length in pixels" : "a position in pixels");
+    }
+    (*parameters.camera)[i] = *number;
+  }
+  return parameters;
 }
 
 void complete_info(const SourceParameters& parameters, const std::string& ground_truth_file,

@@ -25,6 +25,10 @@ std::vector<std::string> folder_entries(const std::string& folder);
 /// Axes of the ICL-NUIM cameras and poses: y points up.
 void set_axes_y_up(SequenceInfo* info);
 
+/// The parameters, with the camera that the text file ("fx fy cx cy", '#' begins a comment) gives
+/// unless the user gave one or there is no such file. Throws InputError naming file and line.
+SourceParameters with_camera_file(SourceParameters parameters, const std::string& file);
+
 /// What every layout does alike, once its reader has filled in the rest: `info->camera` comes as
 /// that of a 640x480 image and is scaled to `depth_size`; the user's camera, depth scale and ground
 /// truth override the sequence's own; the ground truth is read and compared with the frames' time

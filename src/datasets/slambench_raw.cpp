@@ -142,7 +142,10 @@ RawSource::RawSource(const std::string& path, const SourceParameters& parameters
   info_.has_color = layout_.has_color;
   std::vector<double> stamps_s(file_.bytes().size() / layout_.frame_bytes());
   std::iota(stamps_s.begin(), stamps_s.end(), 0);
-  complete_info(parameters, "", stamps_s, &info_);
+  std::string ground_truth = fs::path(path).replace_extension(".groundtruth.txt");
+  if (!is_present(ground_truth)) ground_truth.clear();
+  const std::string camera = fs::path(path).replace_extension(".camera.txt");
+  complete_info(with_camera_file(parameters, camera), ground_truth, stamps_s, &info_);
 }
 
 void RawSource::read(int index, Frame& frame) {

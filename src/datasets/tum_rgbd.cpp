@@ -71,14 +71,14 @@ double rate_of(const std::vector<ListedImage>& images, double otherwise) {
 
 bool is_tum_rgbd(const std::string& sequence) { return is_file(sequence + "/depth.txt"); }
 
-std::unique_ptr<Source> open_tum_rgbd(const std::string& sequence,
-                                      const SourceParameters& parameters) {
+std::unique_ptr<Source> open_tum_rgbd(const std::string& sequence, const SourceParameters& users) {
+  const SourceParameters parameters = with_camera_file(users, sequence + "/camera.txt");
   SequenceInfo info;
   info.name = sequence_name(sequence);
   info.layout = "tum-rgbd";
   info.path = sequence;
   info.units_per_m = 5000;
-  set_camera(&info);
+  if (!parameters.camera) set_camera(&info);
   const std::string list = sequence + "/depth.txt";
   std::vector<ListedImage> images = read_image_list(list, &info.notes);
   info.fps = rate_of(images, info.fps);
