@@ -92,7 +92,11 @@ Json everything() {
   }
   for (const KernelInfo& info : kernel_table()) json["kernels"].push_back(as_json(info));
   for (const SourceEntry& entry : source_table()) {
-    json["layouts"].push_back({{"name", entry.layout}, {"sentence", entry.sentence}});
+    Json layout = {{"name", entry.layout},
+                   {"sentence", entry.sentence},
+                   {"available", entry.unavailable.empty()}};
+    if (!entry.unavailable.empty()) layout["reason"] = entry.unavailable;
+    json["layouts"].push_back(layout);
   }
   for (const Preset& preset : preset_table()) json["presets"].push_back(as_json(preset));
   AllParameters parameters;
@@ -130,7 +134,10 @@ std::string tables() {
                        std::string(info.pattern)});
   }
   for (const SourceEntry& entry : source_table()) {
-    layouts.push_back({std::string(entry.layout), std::string(entry.sentence)});
+    const bool available = entry.unavailable.empty();
+    layouts.push_back({std::string(entry.layout), available ? "available" : "unavailable",
+                       std::string(entry.sentence)});
+    if (!available) layouts.push_back({"", "", std::string(entry.unavailable)});
   }
   for (const Preset& preset : preset_table()) {
     presets.push_back({std::string(preset.name), std::string(preset.sentence)});
@@ -218,12 +225,11 @@ Json as_json(const MachineCeiling& ceiling) {
 }
 
 std::string ceiling_text(const MachineCeiling& ceiling) {
-  return table(
-      fmt::format("What {} threads reach here", ceiling.threads),
-      {{"copy bandwidth", fmt::format("{:.1f} GB/s", ceiling.copy_bytes_per_s * 1e-9),
-        "bytes read and written, of arrays larger than the caches"},
-       {"multiply-add rate", fmt::format("{:.0f} GFLOP/s", ceiling.fma_flops_per_s * 1e-9),
-        fmt::format("single precision from registers, {}", ceiling.instruction_set)}});
+  return table(fmt::format("What {} threads reach here", ceiling.threads),
+               {{"copy bandwidth", fmt::format("{:.1f} GB/s", ceiling.copy_bytes_per_s * 1e-9),
+                 "bytes read and written, of arrays larger than the caches"},
+                {"multiply-add rate", fmt::format("{:.0f} GFLOP/s", ceiling.fma_flops_per_s * 1e-9),
+                 fmt::format("single precision from registers, {}", ceiling.instruction_set)}});
 }
 
 struct ListOptions {

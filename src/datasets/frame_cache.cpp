@@ -40,6 +40,7 @@ std::uint64_t hash_of(const void* data, std::size_t size) { return XXH3_64bits(d
 
 std::string chunk_bytes(std::uint64_t key, const std::vector<std::string>& frames) {
   std::vector<Entry> entries;
+  entries.reserve(frames.size());
   for (const std::string& frame : frames) {
     entries.push_back({frame.size(), hash_of(frame.data(), frame.size())});
   }

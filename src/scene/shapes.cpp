@@ -152,7 +152,8 @@ Mesh extrusion(std::span<const Vector2f> outline, float length, Rgb8 color) {
   const int cells = std::max(1, static_cast<int>(std::ceil(length / 0.2f)));
   Mesh mesh;
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vector2f from = outline[i], to = outline[(i + 1) % outline.size()];
+    const Vector2f& from = outline[i];
+    const Vector2f& to = outline[(i + 1) % outline.size()];
     mesh.append(sheet(1, cells, color, [&](float u, float v) {
       const Vector2f p = from + u * (to - from);
       return Vector3f(p.x(), p.y(), length * v);
