@@ -56,12 +56,14 @@ void compare_tracks(Trial& trial, const Track& expected, const Track& found) {
 }  // namespace
 
 void check_pipeline(Trial& trial) {
-  for (const Recording& recording : trial.recordings()) {
+  const auto add = [&](const Recording& recording) {
     trial.add(
         fmt::format("{}, {} frames", recording.name, recording.frames.size()),
         [&](Workbench& bench) { return run_pipeline(bench, recording); },
         [&](const Track& expected, const Track& found) { compare_tracks(trial, expected, found); });
-  }
+  };
+  add(synthetic_recording({160, 120}, 12));
+  for (const Recording& recording : trial.recordings()) add(recording);
 }
 
 }  // namespace slambench

@@ -122,18 +122,19 @@ void add_frames_that_change_nothing(std::vector<IntegrateCase>* cases, Random* r
 std::vector<IntegrateCase> integrate_cases(Trial& trial) {
   Random random = trial.random();
   std::vector<IntegrateCase> cases;
+  const std::vector<View> views = views_around({64, 48}), wide_views = views_around({127, 65});
   for (const VolumeShape& shape : volume_shapes) {
     const std::string name = text(shape.resolution);
-    cases.push_back({"room, fresh " + name, shape, {}, views_around({127, 65})});
+    cases.push_back({"room, fresh " + name, shape, {}, wide_views});
     cases.push_back({"room, random before " + name,
                      shape,
                      random_voxels(shape.resolution, &random),
-                     {views_around({64, 48})[1]}});
+                     {views[1]}});
   }
+  const Pose first = views[0].T_volume_camera;
   for (const Size size : image_sizes) {
-    cases.push_back({"room from " + text(size), volume_shapes[0], {}, {views_around(size)[0]}});
+    cases.push_back({"room from " + text(size), volume_shapes[0], {}, {room_view(size, first)}});
   }
-  const std::vector<View> views = views_around({64, 48});
   IntegrateCase saturated{"weights at their limit", volume_shapes[2], {}, {}};
   for (int i = 0; i < 6; ++i) saturated.views.push_back(views[static_cast<std::size_t>(i % 2)]);
   saturated.max_weight = 3;
@@ -227,9 +228,9 @@ Voxels fused(const VolumeShape& shape, const std::vector<View>& views) {
 std::vector<SceneCase> scene_cases(Trial& trial) {
   Random random = trial.random();
   std::vector<SceneCase> scenes;
+  const std::vector<View> views = views_around({127, 65});
   for (const VolumeShape& shape : volume_shapes) {
     const std::string name = text(shape.resolution);
-    const std::vector<View> views = views_around({127, 65});
     scenes.push_back({"room written " + name, shape, fused(shape, views), {}});
     if (trial.candidate_supports(Kernel::integrate)) {
       scenes.push_back({"room integrated " + name, shape, {}, views});
@@ -361,6 +362,7 @@ void look_around(Trial& trial, const Run& run, const Compare& compare) {
           fill(bench, scene, &volume);
           return unchanged(bench, volume, [&] {
             std::vector<decltype(run(bench, volume, looks[0]))> seen;
+            seen.reserve(looks.size());
             for (const LookCase& look : looks) seen.push_back(run(bench, volume, look));
             return seen;
           });

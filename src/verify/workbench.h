@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -142,7 +144,8 @@ void Workbench::Item<T>::audit(std::vector<Violation>* violations) {
   std::size_t modified = 0, unwritten = 0, overrun = 0;
   for (std::size_t i = 0; i < after.count(); ++i) {
     const T &was = before.data()[i], &is = after.data()[i];
-    const bool changed = std::memcmp(&was, &is, sizeof(T)) != 0;
+    using Bytes = std::array<unsigned char, sizeof(T)>;
+    const bool changed = std::bit_cast<Bytes>(was) != std::bit_cast<Bytes>(is);
     if (i >= pixels) {
       overrun += changed ? 1 : 0;
     } else if (is_input) {
