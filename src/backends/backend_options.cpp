@@ -10,7 +10,8 @@ ParameterList BackendOptions::describe() {
   return {
       "backend",
       {
-          {"backend", 0, "", &backend, 0, 0, "which implementation of the kernels runs", names},
+          {"backend", 0, "", &backend, 0, 0,
+           "which implementation of the kernels runs; the preset fast takes the quickest", names},
           {"device", 0, "", &device, 0, 0, "index or part of the name of the device it runs on"},
           {"threads", 0, "", &threads, 0, 4096, "threads of a host backend; 0: one per core"},
       },

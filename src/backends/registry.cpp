@@ -24,6 +24,27 @@ constexpr BackendEntry table[] = {
      }},
 };
 
+std::string lower(std::string_view text) {
+  std::string letters(text);
+  for (char& c : letters) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return letters;
+}
+
+/// A device is named by its index or a part of its name, whatever the case of letters.
+void check_device(const BackendEntry& entry, const std::string& wanted) {
+  if (wanted.empty()) return;
+  std::string known;
+  int index = 0;
+  for (const std::string& device : entry.devices()) {
+    if (wanted == std::to_string(index) || lower(device).find(lower(wanted)) != std::string::npos) {
+      return;
+    }
+    known += fmt::format("{}{}: {}", known.empty() ? "" : ", ", index++, device);
+  }
+  throw UsageError(fmt::format("--device: found '{}', expected one of backend {}'s devices ({})",
+                               wanted, entry.name, known));
+}
+
 }  // namespace
 
 std::span<const BackendEntry> backend_table() { return table; }
@@ -37,6 +58,7 @@ std::unique_ptr<Backend> create_backend(std::string_view name, const BackendOpti
         throw UnavailableError(
             fmt::format("backend {}: unavailable: {}", name, availability.reason));
       }
+      check_device(entry, options.device);
       return entry.create(options);
     }
     known += known.empty() ? "" : ", ";

@@ -222,6 +222,8 @@ TEST_F(RunTest, WrongWordsAreUsageErrors) {
                HasSubstr("unknown option '--bakend'; did you mean '--backend'?"));
   expect_error(small({"--backend", "sirial"}), 2,
                HasSubstr("--backend: found 'sirial', expected one of "));
+  expect_error(small({"--backend", "serial", "--device", "7"}), 2,
+               HasSubstr("--device: found '7', expected one of backend serial's devices (0: "));
   expect_error(small({"--preset", "slambench2"}), 2,
                HasSubstr("expected one of fast, slambench1; did you mean 'slambench1'?"));
   expect_error(small({"--map", "octree"}), 2, HasSubstr("--map: found 'octree'"));
