@@ -6,6 +6,7 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
+#include <assimp/DefaultIOSystem.h>
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <bit>
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <system_error>
 
 #include "core/error.h"
 #include "io/files.h"
@@ -63,9 +65,22 @@ void append_mesh(const std::string& path, const aiScene& scene, const aiMesh& pa
   }
 }
 
+/// Opens files that hold something: of folders and empty files, which an OBJ may name as its
+/// materials, Assimp's parser does not let go.
+class FilesWithContents final : public Assimp::DefaultIOSystem {
+ public:
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    std::error_code ignored;
+    const bool usable = std::filesystem::is_regular_file(file, ignored) &&
+                        std::filesystem::file_size(file, ignored) > 0;
+    return usable ? DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+};
+
 /// With its materials, which lie in files beside it.
 Mesh read_obj(const std::string& path) {
   Assimp::Importer importer;
+  importer.SetIOHandler(new FilesWithContents);  // the importer's from now on
   const aiScene* const scene =
       importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                                   aiProcess_PreTransformVertices);
@@ -130,7 +145,13 @@ Mesh read_mesh(const std::string& path) {
                      ".obj or .ply");
   }
   const std::string contents = read_file(path);
-  if (contents.empty()) throw InputError(path, "contents", "an empty file", "a mesh");
+  // The shortest OBJ with a triangle is longer; Assimp leaves a shorter file open.
+  constexpr std::size_t shortest = 16;
+  if (contents.size() < shortest) {
+    throw InputError(path, "contents",
+                     contents.empty() ? "an empty file" : fmt::format("{} bytes", contents.size()),
+                     "a mesh");
+  }
   Mesh mesh = extension == ".ply" ? parse_ply(path, contents) : read_obj(path);
   if (mesh.triangles.empty()) throw InputError(path, "faces", "none", "triangles");
   return mesh;
