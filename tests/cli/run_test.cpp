@@ -201,7 +201,7 @@ TEST_F(RunTest, MakesANewFolderUnderResults) {
 
 TEST_F(RunTest, AnInterruptKeepsTheResultsSoFar) {
   for (const int signal : {SIGINT, SIGTERM}) {
-    const pid_t child = program_.start(small({"--real-time", "-f", "10", "--frames", "8"}));
+    const pid_t child = program_.start(small({"--real-time", "-f", "1"}));
     // The partial folder is there once signals are caught.
     while (!fs::exists(path(".out.slambench-partial")) && ::kill(child, 0) == 0) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -303,6 +303,27 @@ TEST_F(RunTest, UnwritableOutputIsAnError) {
   expect_error(arguments, 2, HasSubstr("small.raw"));
   expect_error(small({"-o", "nowhere/log"}), 1, HasSubstr("--log-file: nowhere/log"));
   expect_error(small({"-d", "small.raw/volume"}), 1, HasSubstr("--dump-volume: small.raw/volume"));
+}
+
+TEST_F(RunTest, AnUnwritableCacheIsSaidAndDoesNotStopARun) {
+  program_.set_environment("XDG_CACHE_HOME", "/dev/null");
+  const testing::Outcome outcome =
+      run({"run", "living-room/0", "--frames", "8", "-c", "4", "-v", "64", "--out", "out"});
+  if (outcome.status == 4) GTEST_SKIP() << outcome.err;
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("/dev/null/slambench/living-room: Not a directory"));
+}
+
+TEST_F(RunTest, TheRenderedRoomTracksTheSameFromTheCache) {
+  const Arguments arguments = {"run", "living-room/0", "--frames", "8",       "-c",     "4", "-v",
+                               "64",  "--out",         "out",      "--force", "--quiet"};
+  const testing::Outcome outcome = run(arguments);
+  if (outcome.status == 4) GTEST_SKIP() << outcome.err;
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string rendered = file("out/trajectory.tum");
+  ASSERT_TRUE(fs::exists(path("cache/slambench/living-room")));
+  ASSERT_EQ(run(arguments).status, 0);
+  EXPECT_EQ(file("out/trajectory.tum"), rendered);
 }
 
 TEST_F(RunTest, ResultsAreNotReplacedUnlessForced) {
