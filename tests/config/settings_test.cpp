@@ -9,6 +9,7 @@
 #include "backends/registry.h"
 #include "config/nearest.h"
 #include "core/error.h"
+#include "datasets/source.h"
 #include "slam/kinect_fusion.h"
 
 namespace slambench {
@@ -142,8 +143,10 @@ TEST_F(SettingsTest, AMissingFileIsNamed) {
 }
 
 TEST_F(SettingsTest, EveryPresetFitsTheParameters) {
+  SourceParameters source;
+  Settings settings({fusion_.describe(), backend_.describe(), source.describe()});
   for (const Preset& preset : preset_table()) {
-    EXPECT_NO_THROW(settings_.apply(preset)) << preset.name;
+    EXPECT_NO_THROW(settings.apply(preset)) << preset.name;
     EXPECT_FALSE(preset.sentence.empty());
     EXPECT_EQ(find_preset(preset.name).name, preset.name);
   }
