@@ -44,13 +44,13 @@ TEST_F(VerifyTest, AsJson) {
 }
 
 TEST_F(VerifyTest, WrongWordsAreUsageErrors) {
-  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-           {"--backend", "abacus"},
-           {"--map", "abacus"},
-           {"--kernel", "abacus"},
-           {"--seed", "-1"},
-           {"--frames", "3"},
-           {"--json", "--markdown"}}) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"--backend", "abacus"},
+                                             {"--map", "abacus"},
+                                             {"--kernel", "abacus"},
+                                             {"--seed", "-1"},
+                                             {"--frames", "3"},
+                                             {"--json", "--markdown"}}) {
     std::vector<std::string> all = {"verify"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     const auto outcome = program_.run(all);
@@ -61,8 +61,8 @@ TEST_F(VerifyTest, WrongWordsAreUsageErrors) {
 
 TEST_F(VerifyTest, TakesRealFrames) {
   program_.folder().write("small.raw", testing::small_raw(2));
-  const auto outcome = program_.run({"verify", "--kernel", "mm2meters", "--sequence", "small.raw",
-                                     "--frames", "2", "--json"});
+  const auto outcome = program_.run(
+      {"verify", "--kernel", "mm2meters", "--sequence", "small.raw", "--frames", "2", "--json"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(Json::parse(outcome.out).at("recordings"), Json::array({"small"}));
 }

@@ -129,7 +129,8 @@ TEST(Mesh, SaysWhatIsWrongInAPly) {
   };
   EXPECT_THAT(error_with("ascii", "text"), HasSubstr("line 2: found 'text'"));
   EXPECT_THAT(error_with("vertex 4", "vertex many"), HasSubstr("line 3: found 'many'"));
-  EXPECT_THAT(error_with("vertex 4", "vertex 4000000000"), HasSubstr("vertex 4: found the end of the file"));
+  EXPECT_THAT(error_with("vertex 4", "vertex 4000000000"),
+              HasSubstr("vertex 4: found the end of the file"));
   EXPECT_THAT(error_with("float x", "string x"), HasSubstr("a type of PLY"));
   EXPECT_THAT(error_with("float z", "float w"), HasSubstr("no property z"));
   EXPECT_THAT(error_with("element vertex", "element corner"), HasSubstr("no element vertex"));
