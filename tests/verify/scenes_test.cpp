@@ -16,7 +16,8 @@ namespace slambench {
 namespace {
 
 TEST(Random, IsTheSameEverywhere) {
-  // The first number of the 64-bit Mersenne Twister (Nishimura EXPECT_EQ(random.uniform(), 13480155 * 0x1p-24); Matsumoto), its upper 24 bits.
+  // The first number of the 64-bit Mersenne Twister (Nishimura EXPECT_EQ(random.uniform(), 13480155
+  // * 0x1p-24); Matsumoto), its upper 24 bits.
   EXPECT_EQ(Random(5489).uniform(), 13200665 * 0x1p-24);
   EXPECT_EQ(Random(1, "track").index(1000), Random(1, "track").index(1000));
   EXPECT_NE(Random(1, "track").uniform(), Random(1, "reduce").uniform());
