@@ -121,9 +121,15 @@ std::string remark(const Progress& progress) {
 void save_images(const FrameRecord& frame, System& system, int every, ResultFolder& folder) {
   if (every == 0 || frame.index % every != 0) return;
   const Pictures pictures = system.pictures();
-  folder.write_image(frame.index, "depth", pictures.depth);
-  folder.write_image(frame.index, "track", pictures.track);
-  folder.write_image(frame.index, "volume", pictures.volume);
+  const auto write = [&](std::string_view name, const Image<Rgba8>& picture) {
+    if (!picture.empty()) folder.write_image(frame.index, name, picture);
+  };
+  write("depth", pictures.depth);
+  write("track", pictures.track);
+  // Drawn at the rendering rate only: an older one does not belong to this frame.
+  if (frame.times.kernel_calls[static_cast<std::size_t>(Kernel::render_volume)] > 0) {
+    write("volume", pictures.volume);
+  }
 }
 
 int frames_wanted(const SequenceInfo& info, const RunParameters& run) {
@@ -144,6 +150,7 @@ Provenance provenance(const RunArguments& arguments, const Backend& backend,
   Provenance provenance = build_and_machine(started_at);
   provenance.backend = backend.name();
   provenance.device = backend.device();
+  provenance.threads = backend.threads();
   provenance.command = arguments.command_line;
   return provenance;
 }

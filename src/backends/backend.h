@@ -97,6 +97,8 @@ class Backend {
   virtual std::string_view name() const = 0;
   /// The device this instance computes on, for people and the record.
   virtual std::string device() const = 0;
+  /// Threads of the host that kernels run on; 0 on a device of its own.
+  virtual int threads() const { return 0; }
   /// An honest answer: whether the kernel is implemented for this map.
   virtual bool supports(Kernel kernel, MapKind map) const = 0;
   /// True: kernels report their own times through kernel_measured, at finish() at the latest.

@@ -109,7 +109,11 @@ void add_alignment(const FrameRecord& frame, std::size_t levels, Rows* rows) {
   }
   rows->add(frame.inliers);
   rows->add(frame.inlier_fraction);
-  rows->add(frame.residual_m);
+  if (frame.inliers > 0) {
+    rows->add(frame.residual_m);
+  } else {
+    rows->add_empty(1);
+  }
   for (const int count : iterations) rows->add(count);
   rows->add_empty(levels - iterations.size());
 }

@@ -43,7 +43,8 @@ struct Provenance {
   std::string version, commit;  ///< of this program; commit ends in "-dirty" when it was
   std::string compiler, flags, build_type;
   std::string cpu, os, backend, device, driver;
-  int cores = 0;  ///< logical processors that the process may use
+  int cores = 0;    ///< logical processors that the process may use
+  int threads = 0;  ///< that the kernels ran on; 0: on a device of its own
   std::size_t host_memory_bytes = 0;
   std::string command;     ///< the command line as given
   std::string started_at;  ///< UTC, ISO 8601
@@ -80,6 +81,7 @@ struct Record {
   FrameTimes init;        ///< of start-up
   double wall_s = 0;      ///< of the frame loop
   int warmup_frames = 0;  ///< first processed frames left out of the time statistics
+  std::string map;        ///< how the map was stored: what `auto` chose
   std::size_t map_bytes = 0;
   bool complete = true;  ///< false: interrupted
   std::string incomplete_reason;

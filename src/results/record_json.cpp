@@ -54,6 +54,7 @@ Json provenance_json(const Provenance& p) {
   put_text(&json, "build_type", p.build_type);
   put_text(&json, "cpu", p.cpu);
   if (p.cores > 0) json["cores"] = p.cores;
+  if (p.threads > 0) json["threads"] = p.threads;
   put_text(&json, "os", p.os);
   if (p.host_memory_bytes > 0) json["host_memory_bytes"] = p.host_memory_bytes;
   put_text(&json, "backend", p.backend);
@@ -240,6 +241,7 @@ void take_out_non_finite(Json* object, const std::string& place, Reasons* absent
 
 std::string record_json(const Record& r) {
   Reasons absent = r.absent;
+  absent["energy"] = energy_absent;
   const std::vector<std::string> invalid = reasons_invalid(r);
   Json json = {{"format", "slambench-record"},
                {"schema_version", Record::schema_version},
@@ -253,6 +255,7 @@ std::string record_json(const Record& r) {
   json["frames"] = frames_json(r);
   json["time"] = time_json(r, &absent);
   json["memory"] = {{"map_bytes", r.map_bytes}};
+  put_text(&json["memory"], "map", r.map);
   json["accuracy"] = accuracy_json(r, &absent);
   take_out_non_finite(&json, "", &absent);
   json["absent"] = absent;

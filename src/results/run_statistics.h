@@ -11,6 +11,9 @@
 
 namespace slambench {
 
+/// Why no run has a figure of energy.
+inline constexpr std::string_view energy_absent = "this version has no energy meters";
+
 /// Seconds a frame in one stage.
 struct StageFigures {
   Stage stage = Stage::acquire;

@@ -73,7 +73,13 @@ void identify(const Record& r, const FrameCounts& counts, Page* page) {
   page->line(fmt::format("{}: {} frames on {}", r.sequence,
                          counts.processed + counts.dropped.size(), r.provenance.backend),
              Look::heading);
-  page->wrapped("device", r.provenance.device);
+  std::string device = r.provenance.device;
+  if (r.provenance.threads > 0) device += fmt::format(", threads: {}", r.provenance.threads);
+  page->wrapped("device", device);
+  const std::string preset = parameter(r, "preset");
+  if (!preset.empty() && !r.map.empty()) {
+    page->wrapped("settings", fmt::format("preset {}, map {}", preset, r.map));
+  }
   std::string sizes = fmt::format("input {}, computation {}", size_text(r.input_size),
                                   size_text(r.computation_size));
   if (auto voxels = parameter(r, "volume-resolution"); !voxels.empty()) {
@@ -199,6 +205,15 @@ void tell_accuracy(const Record& r, const FrameCounts& counts, Page* page) {
   if (r.over_all && !counts.dropped.empty()) tell_trajectory("all frames", *r.over_all, page);
 }
 
+/// What was to be judged and could not be; a missing ground truth was said above.
+void tell_not_measured(const Record& r, Page* page) {
+  if (!r.over_processed) return;
+  for (const auto& [figure, reason] : r.absent) {
+    if (figure.starts_with("accuracy.over_all")) continue;
+    page->wrapped("absent", fmt::format("{}: {}", figure, reason));
+  }
+}
+
 void tell_validity(const Record& r, Page* page) {
   if (!r.complete) {
     page->wrapped("INCOMPLETE",
@@ -224,6 +239,8 @@ std::string summary_text(const Record& record, std::string_view folder, bool col
   tell_accuracy(record, counts, &page);
   page.wrapped("memory", fmt::format("{:.1f} MiB of map",
                                      static_cast<double>(record.map_bytes) / (1024.0 * 1024.0)));
+  page.wrapped("energy", fmt::format("not measured: {}", energy_absent));
+  tell_not_measured(record, &page);
   tell_validity(record, &page);
   if (!folder.empty()) page.line(fmt::format("{:<12}{}", "results", folder));
   return std::move(page).text();

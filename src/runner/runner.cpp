@@ -209,6 +209,7 @@ void run_frames(Source& source, System& system, FrameTimer& timer, const Clock& 
     if (dropped.dropped) dropped.time_s = source.time_s(dropped.index);
   }
   record->input_hash = hash.text();
+  record->map = system.map();
   record->map_bytes = system.map_bytes();
   const auto most_warmup = std::max<std::ptrdiff_t>(0, processed_frames(*record) - 1);
   record->warmup_frames =

@@ -62,6 +62,7 @@ class KinectFusion final : public System {
   FrameResult process(const Frame& frame) override;
   void render() override;
   Pictures pictures() override;
+  std::string map() const override { return std::string(name(volume_.map)); }
   std::size_t map_bytes() const override;
   void dump_volume(const std::string& path) override;
 

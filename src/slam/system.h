@@ -38,6 +38,8 @@ class System {
   virtual void render() = 0;
   /// Copies the last pictures out (not part of the measured work).
   virtual Pictures pictures() = 0;
+  /// How the map is stored, as on the command line.
+  virtual std::string map() const = 0;
   /// Memory of the map now.
   virtual std::size_t map_bytes() const = 0;
   /// Writes the map as raw 16-bit distances, x fastest, then y, then z.

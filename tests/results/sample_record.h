@@ -52,6 +52,7 @@ inline Record sample_record() {
                   .device = "A CPU",
                   .driver = "",
                   .cores = 2,
+                  .threads = 3,
                   .host_memory_bytes = 1024,
                   .command = "slambench run kt3",
                   .started_at = "2015-05-26T09:30:00Z"};
@@ -98,6 +99,7 @@ inline Record sample_record() {
   seconds(r.init, Stage::init) = 0.5;
   r.wall_s = 16;
   r.warmup_frames = 1;
+  r.map = "bricks";
   r.map_bytes = 64 << 20;
 
   TrajectoryFigures figures;

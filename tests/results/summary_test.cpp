@@ -20,7 +20,7 @@ using testing::sample_record;
 
 TEST(SummaryText, IsTheLiteralTextOfASmallRecord) {
   EXPECT_EQ(summary_text(sample_record(), "results/x", false), R"(kt3: 5 frames on serial
-device      A CPU
+device      A CPU, threads: 3
 sizes       input 640x480, computation 320x240, volume 256x256x256 in 5x5x5 m
 
 kernel             ms per frame     share   calls/frame  ms per call
@@ -54,6 +54,7 @@ accuracy    all frames: 3 of 4 poses matched with 400 of ground truth
   RPE       over 1 s        mean    12.00  rmse    12.00  max    12.00 mm
                             mean    0.250  rmse    0.250  max    0.250 deg
 memory      64.0 MiB of map
+energy      not measured: this version has no energy meters
 results     results/x
 )");
 }

@@ -142,7 +142,9 @@ TEST(RecordJson, HoldsTheFigures) {
   EXPECT_EQ(document["memory"]["map_bytes"], 64 << 20);
   EXPECT_EQ(document["accuracy"]["over_processed"]["ate_m"]["se3"]["rmse"], 0.001);
   EXPECT_EQ(document["accuracy"]["slambench1_ate_m"]["mean"], 0.0207);
-  EXPECT_EQ(document["absent"], json::object());
+  EXPECT_EQ(document["memory"]["map"], "bricks");
+  EXPECT_EQ(document["provenance"]["threads"], 3);
+  EXPECT_EQ(document["absent"], (json{{"energy", "this version has no energy meters"}}));
 }
 
 TEST(RecordJson, NumbersReadBackExactly) {

@@ -69,6 +69,7 @@ class FakeSystem final : public System {
     clock_.advance(draw_s);
   }
   Pictures pictures() override { return {}; }
+  std::string map() const override { return "grid"; }
   std::size_t map_bytes() const override { return 1234; }
   void dump_volume(const std::string&) override {}
 

@@ -33,6 +33,7 @@ class HostStorage final : public VersionedStorage {
 class HostBackend : public Backend {
  public:
   std::string device() const override;
+  int threads() const override { return 1; }
   void read_volume(std::vector<Voxel>& destination, const Volume& source) override;
   void write_volume(Volume& destination, const std::vector<Voxel>& source) override;
   std::size_t volume_bytes(const Volume& volume) const override;

@@ -21,6 +21,8 @@ class OpenmpBackend final : public HostBackend {
   /// 0 threads: one per core that this process may use.
   explicit OpenmpBackend(int threads) : parallel_(threads) {}
 
+  int threads() const override { return parallel_.threads(); }
+
   std::string_view name() const override { return "openmp"; }
   bool supports(Kernel kernel, MapKind map) const override;
 
