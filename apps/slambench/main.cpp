@@ -136,7 +136,12 @@ ExitStatus run(int argc, char** argv) {
   return actions.at(chosen)();
 }
 
-int report(ExitStatus status, const std::string& message) {
+/// Names from files and arguments may hold line ends and escapes: the message stays one line.
+int report(ExitStatus status, std::string message) {
+  for (char& c : message) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) c = '?';
+  }
   print_error(fmt::format("slambench: {}\n", message));
   return static_cast<int>(status);
 }

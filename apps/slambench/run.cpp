@@ -48,6 +48,7 @@ constexpr const char* footer =
 /// What was said on the command line.
 struct RunArguments {
   std::string command_line;
+  CLI::Option* sequence_option = nullptr;
   std::string sequence, input_file, preset, config;
   AllParameters parameters;
   ParameterOptions options;
@@ -63,6 +64,9 @@ struct RunPlan {
 RunPlan make_plan(RunArguments& arguments) {
   if (!arguments.sequence.empty() && !arguments.input_file.empty()) {
     throw UsageError("--input-file: the sequence is already given as SEQUENCE");
+  }
+  if (arguments.sequence_option->count() > 0 && arguments.sequence.empty()) {
+    throw UsageError("SEQUENCE: found '', expected a folder, a file or a built-in sequence");
   }
   RunPlan plan{arguments.sequence + arguments.input_file,
                {"run", "preset", "", arguments.preset, "command line"},
@@ -240,11 +244,12 @@ ExitStatus run(RunArguments& arguments) {
 Action add_run(CLI::App& command, const std::string& command_line) {
   auto arguments = std::make_shared<RunArguments>();
   arguments->command_line = command_line;
-  command.add_option("SEQUENCE", arguments->sequence,
-                     fmt::format("folder or file of a recording, or a built-in sequence; layouts "
-                                 "and names: slambench list (default {}: under a minute on two "
-                                 "cores)",
-                                 default_sequence));
+  arguments->sequence_option = command.add_option(
+      "SEQUENCE", arguments->sequence,
+      fmt::format("folder or file of a recording, or a built-in sequence; layouts "
+                  "and names: slambench list (default {}: under a minute on two "
+                  "cores)",
+                  default_sequence));
   command.add_option("-i,--input-file", arguments->input_file, "the sequence, as SEQUENCE")
       ->type_name("PATH");
   std::string presets;

@@ -44,7 +44,9 @@ void prepare_standard_streams() {
     // Opened for reading only, so that writing to it still fails.
     if (::fcntl(descriptor, F_GETFD) == -1) ::open("/dev/null", O_RDONLY);
   }
+  // Both come back as errors of the write, which are told in a line.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 void print(std::string_view text) {

@@ -45,7 +45,9 @@ std::vector<FrameFiles> frame_files(const std::string& folder) {
     int number = 0;
     const std::string digits = match[3];
     const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    if (result.ec != std::errc{}) continue;  // no number of a frame
+    if (result.ec != std::errc{}) {
+      throw InputError(folder, "number of a frame", digits, "at most 2147483647");
+    }
     files.push_back({number, folder + "/" + match[1].str()});
   }
   std::sort(files.begin(), files.end(),

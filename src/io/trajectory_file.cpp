@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <iterator>
 
 #include "core/error.h"
@@ -30,6 +31,12 @@ StampedPose parse_pose(const std::string& path, const TextLine& line) {
       throw InputError(where, field_names[i], quote(line.fields[i]), "a finite number");
     }
     v[i] = *number;
+  }
+  constexpr double farthest_m = 1e6;  // beyond it, squares and sums of positions lose their meaning
+  for (std::size_t i = 1; i <= 3; ++i) {
+    if (std::abs(v[i]) > farthest_m) {
+      throw InputError(where, field_names[i], quote(line.fields[i]), "at most 1e6 m");
+    }
   }
   Eigen::Vector4d q(v[4], v[5], v[6], v[7]);
   constexpr double least_norm = 1e-6;  // files are written with at least this many digits

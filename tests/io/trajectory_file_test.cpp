@@ -158,5 +158,10 @@ TEST(TrajectoryFile, DoesNotDependOnTheLocale) {
   std::setlocale(LC_ALL, before.c_str());
 }
 
+TEST(TrajectoryFile, RefusesPositionsWithoutMeaning) {
+  EXPECT_EQ(error_of("1 0 0 0 0 0 0 1\n2 0 -1e308 0 0 0 0 1"),
+            "poses.txt:2: ty: found '-1e308', expected at most 1e6 m");
+}
+
 }  // namespace
 }  // namespace slambench

@@ -20,9 +20,6 @@ struct RaycastOutput {
   const StartDepths* start = nullptr;  ///< of this view, where there are some
 };
 
-/// Rows of several of these keep packets of rays square.
-inline constexpr int raycast_row_unit = 4;
-
 void raycast_rows(const RaycastOutput& output, const GridView& map,
                   const RaycastParameters& parameters, Rows rows);
 void raycast_rows(const RaycastOutput& output, const BrickView& map,
