@@ -8,14 +8,15 @@ PREFIX ?= /usr/local
 INSTALL ?= yes
 ARGS ?=
 
-.PHONY: help run test asan install build dependencies clean
+.PHONY: help run test asan tidy install build dependencies clean
 .DEFAULT_GOAL := help
 
 help: ## show this
 	@echo "make run        set up, build, and benchmark the built-in sequence"
-	@echo "                (ARGS='tum_fr1_xyz -c 2' runs something else)"
+	@echo "                (ARGS='path/to/recording -c 2' runs something else)"
 	@echo "make test       set up, build, and run all tests"
 	@echo "make asan       the tests under AddressSanitizer and UndefinedBehaviourSanitizer"
+	@echo "make tidy       clang-tidy on every source file (some ten minutes on two cores)"
 	@echo "make install    install to PREFIX ($(PREFIX)); DESTDIR is respected"
 	@echo "make clean      remove build/; results/ stays"
 	@echo
@@ -44,6 +45,12 @@ asan: dependencies
 	@cmake --preset asan
 	@cmake --build --preset asan --parallel $(JOBS)
 	@ctest --preset asan --parallel $(JOBS)
+
+tidy: dependencies
+	@cmake --preset release
+	@cmake --build --preset release --parallel $(JOBS)
+	@git ls-files 'src/*.cpp' 'apps/*.cpp' | xargs --max-procs=$(JOBS) --max-args=1 \
+	  clang-tidy --quiet --extra-arg=-Wno-unknown-warning-option -p build/release
 
 # Not after `build`: under sudo, nothing of it shall be written as root.
 install:

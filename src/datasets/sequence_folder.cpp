@@ -35,9 +35,8 @@ fs::path place_of(const std::string& path) {
 /// A new folder ".NAME.PROCESS-N.partial" beside the target.
 fs::path make_beside(const fs::path& target) {
   for (int n = 0;; ++n) {
-    const fs::path folder =
-        target.parent_path() /
-        fmt::format(".{}.{}-{}.partial", target.filename().string(), ::getpid(), n);
+    fs::path folder = target.parent_path() /
+                      fmt::format(".{}.{}-{}.partial", target.filename().string(), ::getpid(), n);
     if (::mkdir(folder.c_str(), 0777) == 0) return folder;
     if (errno != EEXIST) cannot_write(target, system_error(errno));
   }
