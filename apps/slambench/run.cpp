@@ -136,10 +136,6 @@ void save_images(const FrameRecord& frame, System& system, int every, ResultFold
   }
 }
 
-int frames_wanted(const SequenceInfo& info, const RunParameters& run) {
-  return run.frames > 0 ? std::min(run.frames, info.frame_count) : info.frame_count;
-}
-
 /// Renders what is to be rendered.
 void prepare(Source& source, int frames, bool show, const InterruptFlag& interrupt) {
   ProgressBar bar("rendering", "frames", steady_clock(), show);
@@ -211,7 +207,7 @@ ExitStatus run(RunArguments& arguments) {
   const auto folder =
       open_results(p.output, default_result_folder(started_at, info.name, backend->name()));
   const bool show = !p.output.quiet && !p.output.json;
-  prepare(*source, frames_wanted(info, p.run), show, interrupt);
+  prepare(*source, frames_to_run(info, p.run), show, interrupt);
   if (!p.source.ground_truth.empty()) check_ground_truth(*source, p.run);
 
   FrameTimer timer(steady_clock());

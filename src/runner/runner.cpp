@@ -15,6 +15,11 @@
 #include "runner/input_hash.h"
 
 namespace slambench {
+
+int frames_to_run(const SequenceInfo& info, const RunParameters& parameters) {
+  return parameters.frames > 0 ? std::min(parameters.frames, info.frame_count) : info.frame_count;
+}
+
 namespace {
 
 /// While waiting for a frame the run looks this often whether it is to end.
@@ -70,10 +75,6 @@ void describe_sequence(const SequenceInfo& info, Record* record) {
   record->camera = info.camera;
   record->units_per_m = info.units_per_m;
   record->own_from_camera = info.own_from_camera;
-}
-
-int frames_to_run(const SequenceInfo& info, const RunParameters& parameters) {
-  return parameters.frames > 0 ? std::min(parameters.frames, info.frame_count) : info.frame_count;
 }
 
 /// Frames a second in real time; none: every frame is processed.

@@ -25,6 +25,9 @@ struct RunParameters {
   ParameterList describe();
 };
 
+/// How many of the sequence's frames the parameters ask for.
+int frames_to_run(const SequenceInfo& info, const RunParameters& parameters);
+
 /// What a run tells while it goes on.
 struct Progress {
   int done = 0, total = 0;
