@@ -24,6 +24,7 @@
 #include "parameter_options.h"
 #include "progress.h"
 #include "results/provenance.h"
+#include "results/repetition.h"
 #include "results/result_folder.h"
 #include "results/summary.h"
 #include "results/writers.h"
@@ -231,6 +232,7 @@ ExitStatus run(RunArguments& arguments) {
     run_frames(*source, system, timer, steady_clock(), p.run, hooks, &record);
   }
   judge(info, &record);
+  record.repetition = repetition_of({run_figures(record)});
   write_outputs(record, system, p.output, *folder);
   return report(record, info, folder->path(), p.output);
 }

@@ -13,6 +13,7 @@
 #include "core/statistics.h"
 #include "core/trajectory.h"
 #include "meters/frame_timer.h"
+#include "meters/measurements.h"
 
 namespace slambench {
 
@@ -60,9 +61,29 @@ struct TrajectoryFigures {
   double rpe_delta_s = 1;
 };
 
+/// A figure over repeated runs.
+struct RepeatedFigure {
+  std::string unit;
+  std::vector<double> values;  ///< of each measured run, in order
+  double median = 0;
+  std::optional<double> low, high;     ///< interval that holds the median; none for a single run
+  std::optional<double> run_spread;    ///< standard deviation of the values (n - 1)
+  std::optional<double> frame_spread;  ///< median of the runs' standard deviations over frames
+};
+
+/// How often the run was done, and how its figures varied.
+struct Repetition {
+  int runs = 0;         ///< measured
+  int warmup_runs = 0;  ///< before them, in no figure
+  int shown_run = 1;    ///< the run that all else in the record tells of, counted from 1
+  std::map<std::string, RepeatedFigure> figures;  ///< by place in record.json
+  std::vector<std::string> lacking;   ///< places of figures that only some of the runs have
+  std::vector<int> other_trajectory;  ///< runs whose trajectory is not that of the first
+};
+
 /// Everything that happened in one run: plain data. Writers and reports only read it.
 struct Record {
-  static constexpr int schema_version = 1;
+  static constexpr int schema_version = 2;
 
   Provenance provenance;
   std::vector<UsedParameter> parameters;
@@ -85,6 +106,8 @@ struct Record {
   std::size_t map_bytes = 0;
   bool complete = true;  ///< false: interrupted
   std::string incomplete_reason;
+  Measurements measurements;
+  Repetition repetition;
 
   // How good it was.
   std::optional<TrajectoryFigures> over_processed;  ///< poses of processed frames

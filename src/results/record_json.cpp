@@ -6,6 +6,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "results/measurements_json.h"
 #include "results/run_statistics.h"
 #include "results/writers.h"
 
@@ -241,7 +242,6 @@ void take_out_non_finite(Json* object, const std::string& place, Reasons* absent
 
 std::string record_json(const Record& r) {
   Reasons absent = r.absent;
-  absent["energy"] = energy_absent;
   const std::vector<std::string> invalid = reasons_invalid(r);
   Json json = {{"format", "slambench-record"},
                {"schema_version", Record::schema_version},
@@ -256,6 +256,7 @@ std::string record_json(const Record& r) {
   json["time"] = time_json(r, &absent);
   json["memory"] = {{"map_bytes", r.map_bytes}};
   put_text(&json["memory"], "map", r.map);
+  put_measurements(r, &json, &absent);
   json["accuracy"] = accuracy_json(r, &absent);
   take_out_non_finite(&json, "", &absent);
   json["absent"] = absent;

@@ -11,8 +11,8 @@
 
 namespace slambench {
 
-/// Why no run has a figure of energy.
-inline constexpr std::string_view energy_absent = "this version has no energy meters";
+/// Why a figure is missing that nobody tried to measure.
+inline constexpr std::string_view not_metered = "not metered";
 
 /// Seconds a frame in one stage.
 struct StageFigures {

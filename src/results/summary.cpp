@@ -5,58 +5,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
+#include "results/page.h"
 #include "results/run_statistics.h"
+#include "results/summary_measurements.h"
 
 namespace slambench {
 namespace {
 
 constexpr double ms_per_s = 1e3;
 constexpr double mm_per_m = 1e3;
-constexpr std::size_t width = 80;
-
-enum class Look { plain, heading, good, bad };
-
-/// Lines of text, coloured when that is wanted.
-class Page {
- public:
-  explicit Page(bool colors) : colors_(colors) {}
-
-  void line(std::string_view text, Look look = Look::plain) {
-    static constexpr std::string_view codes[] = {"", "\x1b[1m", "\x1b[32m", "\x1b[1;31m"};
-    const bool colored = colors_ && look != Look::plain;
-    if (colored) text_ += codes[static_cast<std::size_t>(look)];
-    text_ += text;
-    if (colored) text_ += "\x1b[0m";
-    text_ += '\n';
-  }
-  /// Under a label, broken between words so that it fits the terminal.
-  void wrapped(std::string_view label, std::string_view text, Look look = Look::plain) {
-    constexpr std::size_t indent = 12;
-    std::string row = fmt::format("{:<{}}", label, indent);
-    std::size_t used = 0;
-    while (!text.empty()) {
-      const std::string_view word = text.substr(0, text.find(' '));
-      text.remove_prefix(std::min(text.size(), word.size() + 1));
-      if (used > 0 && row.size() + 1 + word.size() > width) {
-        line(row, look);
-        row.assign(indent, ' ');
-        used = 0;
-      }
-      if (used++ > 0) row += ' ';
-      row += word;
-    }
-    line(row, look);
-  }
-  void gap() { text_ += '\n'; }
-  std::string text() && { return std::move(text_); }
-
- private:
-  const bool colors_;
-  std::string text_;
-};
-
 std::string size_text(Size size) { return fmt::format("{}x{}", size.width, size.height); }
 
 std::string parameter(const Record& record, std::string_view name) {
@@ -233,13 +191,12 @@ std::string summary_text(const Record& record, std::string_view folder, bool col
   if (figures.measured_frames > 0) {
     list_kernels(figures, &page);
     list_stages(figures, &page);
+    list_repetition(record.repetition, &page);
   }
   tell_speed(record, figures, &page);
   tell_frames(record, counts, &page);
   tell_accuracy(record, counts, &page);
-  page.wrapped("memory", fmt::format("{:.1f} MiB of map",
-                                     static_cast<double>(record.map_bytes) / (1024.0 * 1024.0)));
-  page.wrapped("energy", fmt::format("not measured: {}", energy_absent));
+  tell_measurements(record, &page);
   tell_not_measured(record, &page);
   tell_validity(record, &page);
   if (!folder.empty()) page.line(fmt::format("{:<12}{}", "results", folder));

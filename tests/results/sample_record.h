@@ -37,6 +37,62 @@ inline Statistics sample_statistics(double mean) {
   return s;
 }
 
+/// One rail, an idle baseline, and a sensor that went away.
+inline Measurements sample_measurements() {
+  Measurements m;
+  m.sampling = {.interval_s = 0.0625,
+                .samples = 257,
+                .cpu_s = 0.5,
+                .share_of_run = 0.03125,
+                .series = {{"package-0", "W", {{0.0625, 2}, {0.125, 8}}}}};
+  const EnergyFigures figures{.joules = 64,
+                              .joules_per_frame = 16,
+                              .mean_w = 4,
+                              .peak_w = 8,
+                              .idle_w = 1,
+                              .joules_above_idle = 48,
+                              .energy_delay_js = 64,
+                              .frames_per_joule = 0.0625};
+  const RailEnergy rail{.name = "package-0",
+                        .sensor = "powercap intel-rapl:0",
+                        .reads = "energy",
+                        .within = "",
+                        .in_total = true,
+                        .resolution = 1e-6,
+                        .updates = 256,
+                        .figures = figures};
+  m.energy = {.seconds = 16, .frames = 4, .idle_seconds = 8, .rails = {rail}, .total = figures};
+  m.memory = {.peak_resident_bytes = 512 << 20, .resident_bytes = 256 << 20, .device_bytes = {}};
+  m.conditions.others_load = 0.25;
+  m.conditions.governor = "powersave";
+  m.conditions.cpu_frequency_hz = sample_statistics(2e9);
+  m.conditions.temperature_c = {{"Tctl", sample_statistics(60)}};
+  m.conditions.throttled = 0;
+  m.conditions.noise = {"the governor is powersave"};
+  m.absent = {{"energy.rails.dram", "No such file or directory"},
+              {"memory.device_bytes", "computes in host memory"},
+              {"counters", "no permission"}};
+  return m;
+}
+
+/// Three runs, of which the third went another way.
+inline Repetition sample_repetition() {
+  Repetition r;
+  r.runs = 3;
+  r.warmup_runs = 1;
+  r.shown_run = 2;
+  r.figures["time.computation_s.mean"] = {.unit = "s",
+                                          .values = {1, 1.25, 2},
+                                          .median = 1.25,
+                                          .low = 1,
+                                          .high = 2,
+                                          .run_spread = 0.5,
+                                          .frame_spread = 0.25};
+  r.lacking = {"time.kernels.reduce.seconds_per_frame"};
+  r.other_trajectory = {3};
+  return r;
+}
+
 /// Five frames of a y-up sequence: a warm-up frame untracked, one tracked, one dropped, one lost,
 /// one tracked. Complete and valid.
 inline Record sample_record() {
@@ -101,6 +157,8 @@ inline Record sample_record() {
   r.warmup_frames = 1;
   r.map = "bricks";
   r.map_bytes = 64 << 20;
+  r.measurements = sample_measurements();
+  r.repetition = sample_repetition();
 
   TrajectoryFigures figures;
   figures.association = "tum";

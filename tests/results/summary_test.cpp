@@ -39,6 +39,14 @@ render           1333.333   1500.000   1950.000   1990.000   2000.000          -
 computation      1250.000   1406.250   1828.125   1865.625   1875.000    100.0 %
 total            2625.000   2953.125   3839.062   3917.812   3937.500          -
 
+over 3 runs                 median         95 % interval  run to run   of frames
+computation ms                1250       1000 -     2000      40.0 %      20.0 %
+
+runs        3 measured after 1 not measured; the rest of this page is run 2, the
+            median; spreads are standard deviations from run to run and from
+            frame to frame
+runs        another trajectory than run 1: 3
+
 speed       0.80 frames/s of computation, 0.25 frames/s of all 16.0 s
 measured    3 frames; left out as warm-up: 0
 frames      2 tracked; 2 untracked (0, 3); 1 lost (3); 1 dropped (2)
@@ -53,8 +61,12 @@ accuracy    all frames: 3 of 4 poses matched with 400 of ground truth
   ATE       SE(3)           mean     1.00  rmse     1.00  max     1.00 mm
   RPE       over 1 s        mean    12.00  rmse    12.00  max    12.00 mm
                             mean    0.250  rmse    0.250  max    0.250 deg
-memory      64.0 MiB of map
-energy      not measured: this version has no energy meters
+memory      64.0 MiB of map, 512.0 MiB of process at most
+energy      over 16.00 s and 4 frames; idle baseline of 8.0 s
+  rail                      J    J/frame   mean W   peak W above idle  J s/frame
+  package-0            64.000    16.0000    4.000    8.000     48.000   64.00000
+  absent    energy.rails.dram: No such file or directory
+noise       the governor is powersave
 results     results/x
 )");
 }
@@ -76,6 +88,44 @@ TEST(SummaryText, FitsEightyColumnsWithLongNamesAndTimes) {
   }
   std::istringstream lines(summary_text(record, "results/x", false));
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
+}
+
+TEST(SummaryText, SaysWhyNoEnergyWasMeasured) {
+  Record record = sample_record();
+  record.measurements.energy.reset();
+  EXPECT_THAT(summary_text(record, "", false),
+              HasSubstr("energy      not measured: not metered\n"));
+  record.measurements.absent["energy"] = "no sensor";
+  EXPECT_THAT(summary_text(record, "", false), HasSubstr("energy      not measured: no sensor\n"));
+}
+
+TEST(SummaryText, AddsRailsUpAndMarksThoseWithinAnother) {
+  Record record = sample_record();
+  auto& rails = record.measurements.energy->rails;
+  rails.push_back(rails[0]);
+  rails[1].name = "package-0/core";
+  rails[1].within = "package-0";
+  rails[1].figures.peak_w.reset();
+  const std::string text = summary_text(record, "", false);
+  EXPECT_THAT(text, HasSubstr("  - package-0/core     64.000    16.0000    4.000        -"));
+  EXPECT_THAT(text, HasSubstr("\n  total                64.000"));
+}
+
+TEST(SummaryText, ShowsCountersInMillionsAFrame) {
+  Record record = sample_record();
+  CounterMeasurement counters;
+  counters.frames = 4;
+  counters.stages[static_cast<std::size_t>(Stage::track)] = {8'000'000, 20'000'000, {}, 4'000};
+  record.measurements.counters = counters;
+  EXPECT_THAT(summary_text(record, "", false),
+              HasSubstr("\n  track                     2.000          5.000               -"
+                        "           0.001\n"));
+}
+
+TEST(SummaryText, OfASingleRunHasNoIntervals) {
+  Record record = sample_record();
+  record.repetition.runs = 1;
+  EXPECT_THAT(summary_text(record, "", false), Not(HasSubstr("interval")));
 }
 
 TEST(SummaryText, ColorsOnlyWhenWanted) {

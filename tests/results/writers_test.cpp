@@ -86,7 +86,7 @@ TEST(RecordJson, TheSchemaRefusesOtherDocuments) {
     document[json::json_pointer(pointer)] = value;
     return schema_errors(document);
   };
-  EXPECT_THAT(broken("/schema_version", 2), Not(IsEmpty()));
+  EXPECT_THAT(broken("/schema_version", 1), Not(IsEmpty()));
   EXPECT_THAT(broken("/surprise", 1), Not(IsEmpty()));
   EXPECT_THAT(broken("/time/fps_wall", "fast"), Not(IsEmpty()));
   EXPECT_THAT(broken("/time/kernels/track/calls", 0), Not(IsEmpty()));
@@ -144,7 +144,73 @@ TEST(RecordJson, HoldsTheFigures) {
   EXPECT_EQ(document["accuracy"]["slambench1_ate_m"]["mean"], 0.0207);
   EXPECT_EQ(document["memory"]["map"], "bricks");
   EXPECT_EQ(document["provenance"]["threads"], 3);
-  EXPECT_EQ(document["absent"], (json{{"energy", "this version has no energy meters"}}));
+  EXPECT_EQ(document["absent"], (json{{"counters", "no permission"},
+                                      {"energy.rails.dram", "No such file or directory"},
+                                      {"memory.device_bytes", "computes in host memory"},
+                                      {"repetition.figures.time.kernels.reduce.seconds_per_frame",
+                                       "not measured in every run"}}));
+}
+
+TEST(RecordJson, HoldsWhatTheMetersRead) {
+  const json document = json::parse(record_json(sample_record()));
+  EXPECT_EQ(document["memory"]["peak_resident_bytes"], 512 << 20);
+  EXPECT_EQ(document["memory"]["resident_bytes"], 256 << 20);
+  EXPECT_EQ(document["conditions"]["others_load"], 0.25);
+  EXPECT_EQ(document["conditions"]["governor"], "powersave");
+  EXPECT_EQ(document["conditions"]["noise"], json({"the governor is powersave"}));
+  EXPECT_EQ(document["sampling"], json::parse(R"({"interval_s": 0.0625, "samples": 257,
+                                                 "cpu_s": 0.5, "share_of_run": 0.03125})"));
+  const json& energy = document["energy"];
+  EXPECT_EQ(energy["seconds"], 16);
+  EXPECT_EQ(energy["frames"], 4);
+  EXPECT_EQ(energy["idle_seconds"], 8);
+  EXPECT_EQ(energy["rails"]["package-0"], json::parse(R"({
+      "sensor": "powercap intel-rapl:0", "reads": "energy", "in_total": true,
+      "resolution_j": 1e-6, "updates": 256, "joules": 64, "joules_per_frame": 16, "mean_w": 4,
+      "peak_w": 8, "idle_w": 1, "joules_above_idle": 48, "energy_delay_js": 64,
+      "frames_per_joule": 0.0625})"));
+  EXPECT_EQ(energy["total"]["joules"], 64);
+}
+
+TEST(RecordJson, TellsARailThatIsWithinAnotherAndReadsPower) {
+  Record record = sample_record();
+  RailEnergy& rail = record.measurements.energy->rails[0];
+  rail.reads = "power";
+  rail.within = "VDD_IN";
+  rail.in_total = false;
+  record.measurements.energy->total.reset();
+  const json document = json::parse(record_json(record));
+  EXPECT_EQ(schema_errors(document), "");
+  const json& energy = document["energy"];
+  EXPECT_EQ(energy["rails"]["package-0"]["resolution_w"], 1e-6);
+  EXPECT_FALSE(energy["rails"]["package-0"].contains("resolution_j"));
+  EXPECT_EQ(energy["rails"]["package-0"]["within"], "VDD_IN");
+  EXPECT_FALSE(energy.contains("total"));
+}
+
+TEST(RecordJson, HoldsTheCountersOfEachStage) {
+  Record record = sample_record();
+  CounterMeasurement counters;
+  counters.frames = 4;
+  counters.stages[static_cast<std::size_t>(Stage::track)] = {100, 250, std::nullopt, 7};
+  record.measurements.counters = counters;
+  const json document = json::parse(record_json(record));
+  EXPECT_EQ(schema_errors(document), "");
+  EXPECT_EQ(document["counters"]["stages"]["track"],
+            json::parse(R"({"cycles": 100, "instructions": 250, "branch_misses": 7})"));
+}
+
+TEST(RecordJson, HoldsHowFiguresVariedOverTheRuns) {
+  const json document = json::parse(record_json(sample_record()));
+  const json& repetition = document["repetition"];
+  EXPECT_EQ(repetition["runs"], 3);
+  EXPECT_EQ(repetition["warmup_runs"], 1);
+  EXPECT_EQ(repetition["shown_run"], 2);
+  EXPECT_EQ(repetition["same_trajectory"], false);
+  EXPECT_EQ(repetition["other_trajectory"], json({3}));
+  EXPECT_EQ(repetition["figures"]["time.computation_s.mean"],
+            json::parse(R"({"unit": "s", "values": [1, 1.25, 2], "median": 1.25, "low": 1,
+                            "high": 2, "run_spread": 0.5, "frame_spread": 0.25})"));
 }
 
 TEST(RecordJson, NumbersReadBackExactly) {
