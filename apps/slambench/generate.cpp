@@ -11,7 +11,6 @@
 #include <string>
 
 #include "commands.h"
-#include "core/processors.h"
 #include "datasets/living_room.h"
 #include "datasets/sequence_writer.h"
 #include "interrupt.h"
@@ -109,7 +108,7 @@ ExitStatus generate(const Arguments& arguments) {
     std::optional<std::uint64_t> seed;
     if (arguments.noise) seed = static_cast<std::uint64_t>(arguments.noise_seed);
     const RenderedSequence sequence(plan.surface, plan.trajectory, Shading::diffuse, seed,
-                                    usable_processors());
+                                    all_threads());
     ProgressBar bar("generating", "frames", steady_clock(), !arguments.quiet);
     blind = write_sequence(sequence, plan.surface, plan.written, arguments.folder, arguments.force,
                            [&](int done, int total) {

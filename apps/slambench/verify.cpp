@@ -11,7 +11,6 @@
 #include "config/settings.h"
 #include "datasets/source.h"
 #include "meters/clock.h"
-#include "open_sequence.h"
 #include "parameter_options.h"
 #include "progress.h"
 #include "terminal.h"
@@ -32,11 +31,11 @@ struct VerifyArguments {
 
 /// The first frames of a sequence, with the settings that suit it.
 Recording read_recording(const std::string& sequence, int frames) {
-  SourceParameters of_source;
-  KinectFusionParameters parameters;
-  Settings settings({of_source.describe(), parameters.describe()});
-  const auto source = open_sequence(sequence, of_source, &settings);
+  const auto source = open_source(sequence, {});
   const SequenceInfo& info = source->info();
+  KinectFusionParameters parameters;
+  Settings settings({parameters.describe()});
+  settings.suggest(info.suggested);
   std::vector<Frame> read;
   for (int i = 0; i < std::min(frames, info.frame_count); ++i) {
     read.emplace_back();

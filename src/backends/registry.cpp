@@ -4,12 +4,35 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
+#include "backends/cuda/cuda_backend.h"
 #include "backends/openmp/openmp_backend.h"
 #include "backends/serial/serial_backend.h"
 #include "core/error.h"
 
 namespace slambench {
 namespace {
+
+std::string lower(std::string_view text) {
+  std::string letters(text);
+  for (char& c : letters) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return letters;
+}
+
+/// A device is named by its index or a part of its name, whatever the case of letters; not named,
+/// it is the first. None: there is no such device.
+std::optional<int> device_index(const std::vector<std::string>& devices,
+                                const std::string& wanted) {
+  int index = 0;
+  for (const std::string& device : devices) {
+    if (wanted == std::to_string(index) || lower(device).find(lower(wanted)) != std::string::npos) {
+      return index;
+    }
+    ++index;
+  }
+  return std::nullopt;
+}
 
 constexpr BackendEntry table[] = {
     {"serial", "plain sequential C++: the reference", [] { return Availability{}; },
@@ -22,23 +45,24 @@ constexpr BackendEntry table[] = {
      [](const BackendOptions& options) -> std::unique_ptr<Backend> {
        return std::make_unique<OpenmpBackend>(options.threads);
      }},
+    {"cuda", "NVIDIA GPUs of compute capability 7.5 and later",
+     [] {
+       const std::string obstacle = cuda_obstacle();
+       return Availability{obstacle.empty(), obstacle};
+     },
+     cuda_devices,
+     [](const BackendOptions& options) {
+       return make_cuda_backend(device_index(cuda_devices(), options.device).value_or(0));
+     }},
 };
 
-std::string lower(std::string_view text) {
-  std::string letters(text);
-  for (char& c : letters) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return letters;
-}
-
-/// A device is named by its index or a part of its name, whatever the case of letters.
 void check_device(const BackendEntry& entry, const std::string& wanted) {
   if (wanted.empty()) return;
+  const std::vector<std::string> devices = entry.devices();
+  if (device_index(devices, wanted)) return;
   std::string known;
   int index = 0;
-  for (const std::string& device : entry.devices()) {
-    if (wanted == std::to_string(index) || lower(device).find(lower(wanted)) != std::string::npos) {
-      return;
-    }
+  for (const std::string& device : devices) {
     known += fmt::format("{}{}: {}", known.empty() ? "" : ", ", index++, device);
   }
   throw UsageError(fmt::format("--device: found '{}', expected one of backend {}'s devices ({})",

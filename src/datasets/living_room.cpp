@@ -10,7 +10,6 @@
 #include <optional>
 
 #include "core/error.h"
-#include "core/processors.h"
 #include "datasets/frame_cache.h"
 #include "datasets/sequence_info.h"
 #include "io/text.h"
@@ -128,7 +127,7 @@ const RenderedSequence& LivingRoomSource::scene() {
   if (scene_ == nullptr || (wants_color() && !scene_has_color_)) {
     scene_ = std::make_unique<RenderedSequence>(living_room(), trajectory_,
                                                 wants_color() ? Shading::diffuse : Shading::none,
-                                                noise_seed_, usable_processors());
+                                                noise_seed_, all_threads());
     scene_has_color_ = wants_color();
   }
   return *scene_;
@@ -180,7 +179,7 @@ void LivingRoomSource::prepare(int frames, const PrepareProgress& progress) {
     }
   };
   const RenderedSequence& shared = scene();
-  parallel_for(static_cast<int>(missing.size()), usable_processors(), [&](int i) {
+  parallel_for(static_cast<int>(missing.size()), all_threads(), [&](int i) {
     const int chunk = missing[static_cast<std::size_t>(i)];
     if (has(chunk)) {  // by now, from another process
       rendered(frames_in(chunk));

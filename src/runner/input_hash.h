@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <string>
-#include <string_view>
 
 #include "core/frame.h"
 
@@ -24,8 +23,5 @@ class InputHash {
   struct State;
   std::unique_ptr<State> state_;
 };
-
-/// The same hash over bytes.
-std::string hash_text(std::string_view bytes);
 
 }  // namespace slambench

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <cuda_runtime.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "kernels/kernel.h"
+
+/// What CUDA's runtime does for the host: devices, memory, clocks, errors. Needs no CUDA compiler.
+namespace slambench::cuda {
+
+/// Model, compute capability, multiprocessors and highest clocks.
+std::string device_name(int device);
+/// Versions of the driver and of the runtime that is part of this program.
+std::string driver_name();
+
+/// Throws when a call of CUDA's did not succeed: UnavailableError when the device lacks memory or
+/// cannot run this build, Error (failed) otherwise. The message names call, file and line.
+void check(cudaError_t status, const char* call, const char* file, int line);
+#define SLAMBENCH_CUDA(call) ::slambench::cuda::check((call), #call, __FILE__, __LINE__)
+
+/// A device with a stream that everything runs in, in order: all of the Launch of device_backend.h
+/// but for the launches.
+class CudaDevice {
+ public:
+  explicit CudaDevice(int device);
+  ~CudaDevice();
+  CudaDevice(const CudaDevice&) = delete;
+  CudaDevice& operator=(const CudaDevice&) = delete;
+
+  std::string device() const { return device_name(index_); }
+  std::string driver() const { return driver_name(); }
+  int processors() const { return processors_; }
+
+  void* allocate(std::size_t bytes);
+  void release(void* data) noexcept;
+  void upload(void* device, const void* host, std::size_t bytes);
+  void download(void* host, const void* device, std::size_t bytes);
+  void finish();
+  void begin(Kernel kernel);
+  void end(Kernel kernel);
+  void report(const std::function<void(Kernel, double seconds)>& f);
+
+ protected:
+  /// Of this device, which it makes the calling thread's current one.
+  cudaStream_t stream();
+
+ private:
+  /// Pinned memory of the host on its way to or from the device.
+  struct Stage {
+    unsigned char* memory = nullptr;
+    cudaEvent_t free = nullptr;  ///< recorded behind its last use
+  };
+  struct Measurement {
+    Kernel kernel;
+    cudaEvent_t begin, end;
+  };
+
+  /// The stage that was used longer ago, once it is free.
+  const Stage& next_stage();
+  cudaEvent_t timed_event();
+  void destroy() noexcept;
+
+  int index_, processors_ = 0;
+  cudaStream_t stream_ = nullptr;
+  Stage stages_[2];
+  int stage_ = 0;
+  std::vector<Measurement> measurements_;
+  std::vector<cudaEvent_t> idle_events_;
+};
+
+}  // namespace slambench::cuda

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: The SLAMBench authors
+#
+# What scripts/gpu-check says before it builds anything: status and message.
+set -euo pipefail
+
+script="$(dirname "$(readlink -f "$0")")/../../scripts/gpu-check"
+folder="$(mktemp -d)"
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+
+expect() {
+  local status="$1" message="$2" found=0
+  shift 2
+  "$script" "$@" >out 2>err || found=$?
+  if ((found != status)) || ! grep -qF -- "$message" out err; then
+    echo "gpu-check $*: found status $found, expected $status with '$message'; it said:" >&2
+    cat out err >&2
+    exit 1
+  fi
+}
+
+expect 0 'SEQUENCE.raw' --help
+expect 2 'found no sequence'
+expect 2 "found option '--fast'" --fast
+expect 2 '--out: found nothing' a.raw --out
+expect 2 "found a second sequence 'b.raw'" a.raw b.raw
+expect 3 'a.raw: cannot read the sequence' a.raw
+touch a.raw
+expect 3 'slambench.toml: cannot read the settings' a.raw
+touch slambench.toml
+expect 2 "--limit: found 'soon'" a.raw --limit soon
+mkdir debs
+expect 4 'found no .deb file in debs' a.raw --debs debs --out out-folder --build build
+echo "gpu-check says what it finds"
