@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 #include <stdexcept>
 
+#include "backends/align.h"
 #include "core/error.h"
 #include "core/se3.h"
 
@@ -177,24 +178,12 @@ AlignResult Backend::align(const AlignInput& input, double condition) {
 }
 
 AlignResult Backend::do_align(const AlignInput& input, double condition) {
-  AlignResult result;
-  result.T_volume_camera = input.T_volume_camera;
-  result.iterations.assign(input.iterations.size(), 0);
-  TrackParameters parameters = input.parameters;
-  for (std::size_t level = input.iterations.size(); level-- > 0;) {
-    for (int i = 0; i < input.iterations[level]; ++i) {
-      parameters.T_volume_camera = to_rigid3f(result.T_volume_camera);
-      track(*input.rows[level], *input.vertices[level], *input.normals[level],
-            *input.model_vertices, *input.model_normals, parameters);
-      result.last = reduce(*input.rows[level]);
-      result.last_level = static_cast<int>(level);
-      ++result.iterations[level];
-      const Twist twist = solve(result.last, condition);
-      result.T_volume_camera = moved(result.T_volume_camera, twist);
-      if (norm(twist) < input.convergence) break;
-    }
-  }
-  return result;
+  const auto match = [&](std::size_t level, const TrackParameters& at) {
+    track(*input.rows[level], *input.vertices[level], *input.normals[level], *input.model_vertices,
+          *input.model_normals, at);
+    return reduce(*input.rows[level]);
+  };
+  return iterate_align(input, match, [&](const Reduction& sums) { return solve(sums, condition); });
 }
 
 void Backend::integrate(Volume& volume, const DeviceImage<float>& depth_m,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "backends/align.h"
 #include "backends/openmp/image_kernels.h"
 #include "backends/openmp/raycast_kernels.h"
 
@@ -136,9 +137,6 @@ const ModelPoint* OpenmpBackend::packed_model(const DeviceImage<Float3>& vertice
 }
 
 AlignResult OpenmpBackend::do_align(const AlignInput& input, double condition) {
-  AlignResult result;
-  result.T_volume_camera = input.T_volume_camera;
-  result.iterations.assign(input.iterations.size(), 0);
   TrackInput track = {nullptr,
                       nullptr,
                       {},
@@ -147,27 +145,17 @@ AlignResult OpenmpBackend::do_align(const AlignInput& input, double condition) {
                       packed_model(*input.model_vertices, *input.model_normals),
                       input.model_vertices->size,
                       input.parameters};
-  for (std::size_t level = input.iterations.size(); level-- > 0;) {
+  const auto match = [&](std::size_t level, const TrackParameters& at) {
     track.vertices = pixels(*input.vertices[level]);
     track.normals = pixels(*input.normals[level]);
     track.size = input.vertices[level]->size;
-    for (int i = 0; i < input.iterations[level]; ++i) {
-      track.parameters.T_volume_camera = to_rigid3f(result.T_volume_camera);
-      result.last =
-          sum_bands(track.size, [&](Rows band) { return track_reduce_band(track, band); });
-      result.last_level = static_cast<int>(level);
-      ++result.iterations[level];
-      const Twist twist = do_solve(result.last, condition);
-      result.T_volume_camera = moved(result.T_volume_camera, twist);
-      if (norm(twist) < input.convergence) break;
-    }
-  }
-  const auto last = static_cast<std::size_t>(result.last_level);
-  if (input.keep_rows && result.iterations[last] > 0) {
-    TrackData* rows = pixels(*input.rows[last]);
-    track.vertices = pixels(*input.vertices[last]);
-    track.normals = pixels(*input.normals[last]);
-    track.size = input.vertices[last]->size;
+    track.parameters = at;
+    return sum_bands(track.size, [&](Rows band) { return track_reduce_band(track, band); });
+  };
+  AlignResult result =
+      iterate_align(input, match, [&](const Reduction& sums) { return do_solve(sums, condition); });
+  if (input.keep_rows && track.vertices != nullptr) {  // `track` is still the last iteration's
+    TrackData* rows = pixels(*input.rows[static_cast<std::size_t>(result.last_level)]);
     for_rows(track.size.height, [&](Rows part) { track_rows(rows, track, part); });
   }
   return result;
