@@ -11,6 +11,7 @@
 #include <string>
 
 #include "commands.h"
+#include "core/processors.h"
 #include "datasets/living_room.h"
 #include "datasets/sequence_writer.h"
 #include "interrupt.h"
@@ -108,7 +109,7 @@ ExitStatus generate(const Arguments& arguments) {
     std::optional<std::uint64_t> seed;
     if (arguments.noise) seed = static_cast<std::uint64_t>(arguments.noise_seed);
     const RenderedSequence sequence(plan.surface, plan.trajectory, Shading::diffuse, seed,
-                                    all_threads());
+                                    usable_processors());
     ProgressBar bar("generating", "frames", steady_clock(), !arguments.quiet);
     blind = write_sequence(sequence, plan.surface, plan.written, arguments.folder, arguments.force,
                            [&](int done, int total) {

@@ -10,7 +10,9 @@
 #include "config/settings.h"
 #include "datasets/source.h"
 #include "help.h"
+#include "open_sequence.h"
 #include "parameter_options.h"
+#include "slam/kinect_fusion.h"
 #include "terminal.h"
 
 namespace slambench {
@@ -24,6 +26,16 @@ struct Arguments {
   SourceParameters parameters;
   ParameterOptions options;
 };
+
+/// What a run would take from the sequence: parameter, value.
+std::vector<std::pair<std::string, std::string>> suggested(const Settings& settings) {
+  std::vector<std::pair<std::string, std::string>> taken;
+  for (const UsedParameter& parameter : settings.used()) {
+    if (parameter.set_by.starts_with("sequence"))
+      taken.emplace_back(parameter.name, parameter.value);
+  }
+  return taken;
+}
 
 double path_length_m(const Trajectory& trajectory) {
   double length_m = 0;
@@ -45,10 +57,11 @@ Json ground_truth_json(const SequenceInfo& info) {
           {"frames_with_pose", info.frames_with_ground_truth}};
 }
 
-std::string json_text(const SequenceInfo& info) {
+std::string json_text(const SequenceInfo& info, const Settings& settings) {
   const Intrinsics& k = info.camera;
-  Json suggested = Json::object();
-  for (const auto& [name, value] : info.suggested) suggested[name] = value;
+  Json taken = Json::object();
+  for (const auto& [name, value] : suggested(settings)) taken[name] = value;
+  const std::string file = sequence_settings_file(info.path);
   const Json json = {
       {"name", info.name},
       {"layout", info.layout},
@@ -64,7 +77,8 @@ std::string json_text(const SequenceInfo& info) {
       {"camera", {{"fx", k.fx}, {"fy", k.fy}, {"cx", k.cx}, {"cy", k.cy}}},
       {"axes", info.axes},
       {"ground_truth", ground_truth_json(info)},
-      {"suggested", suggested},
+      {"suggested", taken},
+      {"settings_file", file.empty() ? Json(nullptr) : Json(file)},
       {"notes", info.notes},
   };
   // A file name may hold bytes that are not UTF-8, which JSON cannot.
@@ -102,7 +116,7 @@ void add_ground_truth(const SequenceInfo& info, Page* page) {
                             info.frame_count));
 }
 
-std::string page_text(const SequenceInfo& info) {
+std::string page_text(const SequenceInfo& info, const Settings& settings) {
   const Intrinsics& k = info.camera;
   Page page;
   page.line("sequence", info.name);
@@ -117,9 +131,14 @@ std::string page_text(const SequenceInfo& info) {
                                  k.fy, k.cx, k.cy));
   page.row("axes", info.axes);
   add_ground_truth(info, &page);
-  std::string settings;
-  for (const auto& [name, value] : info.suggested) settings += fmt::format("--{}={} ", name, value);
-  page.row("suggested", settings.empty() ? "the defaults" : settings);
+  std::string options;
+  for (const auto& [name, value] : suggested(settings)) {
+    options += fmt::format("--{}={} ", name, value);
+  }
+  page.row("suggested", options.empty() ? "the defaults" : options);
+  if (const auto file = sequence_settings_file(info.path); !file.empty()) {
+    page.line("settings", file);
+  }
   std::string_view name = "notes";
   for (const std::string& note : info.notes) {
     page.row(name, note);
@@ -141,10 +160,12 @@ Action add_info(CLI::App& command) {
   }
   command.add_flag("--json", arguments->json, "the same as one JSON object");
   return [arguments] {
-    Settings settings({arguments->parameters.describe()});
+    KinectFusionParameters of_runs;
+    Settings settings({arguments->parameters.describe(), of_runs.describe()});
     arguments->options.apply(settings);
-    const auto source = open_source(arguments->sequence, arguments->parameters);
-    print(arguments->json ? json_text(source->info()) : page_text(source->info()));
+    const auto source = open_sequence(arguments->sequence, arguments->parameters, &settings);
+    const SequenceInfo& info = source->info();
+    print(arguments->json ? json_text(info, settings) : page_text(info, settings));
     return ExitStatus::ok;
   };
 }

@@ -6,8 +6,9 @@
 
 namespace slambench {
 
-/// While one lives, the first SIGINT or SIGTERM only raises a flag, and the second ends the process
-/// as usual. At most one lives at a time.
+/// While one lives, the first SIGINT, SIGTERM or SIGHUP only raises a flag, says so on a terminal,
+/// and makes the second end the process at once. A signal that is ignored when one is made stays
+/// ignored. At most one lives at a time.
 class InterruptFlag {
  public:
   InterruptFlag();

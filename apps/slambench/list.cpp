@@ -78,6 +78,9 @@ Json as_json(const Parameter& parameter) {
   if (parameter.flag != 0) json["letter"] = std::string(1, parameter.flag);
   json["unit"] = parameter.unit;
   json["default"] = to_text(parameter);
+  if (const auto words = default_exception(parameter); !words.empty()) {
+    json["default_exception"] = words;
+  }
   json["expected"] = expectation(parameter);
   json["sentence"] = parameter.sentence;
   return json;
@@ -160,8 +163,10 @@ std::string parameter_tables() {
     std::vector<Row> rows = {{"option", "default", "unit", "range and meaning"}};
     for (const Parameter& parameter : list.parameters) {
       const std::string range = range_words(parameter);
+      const std::string exception = default_exception(parameter);
       rows.push_back({option_text(parameter), to_text(parameter), std::string(parameter.unit),
-                      fmt::format("{}{}{}", range, range.empty() ? "" : ": ", parameter.sentence)});
+                      fmt::format("{}{}{}{}", range, range.empty() ? "" : ": ", parameter.sentence,
+                                  exception.empty() ? "" : "; the default holds " + exception)});
     }
     text += table(fmt::format("[{}]", list.group), rows);
   }
@@ -186,6 +191,11 @@ pyramid-levels = [10, 5, 4]
 The command line is stronger than the file, the file than the preset, the preset than what suits the
 sequence, that than the default. The record says of each value who set it.
 
+What suits a sequence is what its own settings say, and else what its reader thinks (`slambench info
+SEQUENCE` shows both). Its own settings are a configuration file named `slambench.toml` in its folder,
+or beside its `.raw` file; only the tables `[source]` and `[kinectfusion]` of it count. `slambench
+generate` writes one.
+
 This file is generated: `slambench list --parameters --markdown > docs/parameters.md`.
 )";
 
@@ -208,9 +218,10 @@ std::string parameter_markdown() {
         "|---|---|---|---|---|\n",
         list.group);
     for (const Parameter& parameter : list.parameters) {
-      const std::string value = to_text(parameter);
-      text += fmt::format("| `{}` | {} | {} | {} | {} |\n", option_text(parameter),
-                          value.empty() ? "" : fmt::format("`{}`", value), parameter.unit,
+      const std::string value = to_text(parameter), exception = default_exception(parameter);
+      text += fmt::format("| `{}` | {}{}{} | {} | {} | {} |\n", option_text(parameter),
+                          value.empty() ? "" : fmt::format("`{}`", value),
+                          exception.empty() ? "" : " ", exception, parameter.unit,
                           cell(range_words(parameter)), cell(parameter.sentence));
     }
   }

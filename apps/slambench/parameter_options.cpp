@@ -4,6 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+#include <optional>
+
+#include "config/presets.h"
+#include "datasets/source.h"
+
 namespace slambench {
 namespace {
 
@@ -38,6 +45,44 @@ std::string range_words(const Parameter& parameter) {
   return fmt::format("{} to {}", parameter.min, parameter.max);
 }
 
+std::string default_exception(const Parameter& parameter) {
+  if (std::ranges::find(suggested_parameters, parameter.name) != std::end(suggested_parameters)) {
+    return "unless the sequence has its own";
+  }
+  std::vector<std::string_view> presets;
+  for (const Preset& preset : preset_table()) {
+    const bool sets = std::ranges::any_of(preset.assignments,
+                                          [&](const auto& a) { return a.first == parameter.name; });
+    if (sets) presets.push_back(preset.name);
+  }
+  return presets.empty() ? "" : fmt::format("unless preset {} sets it", fmt::join(presets, " or "));
+}
+
+namespace {
+
+/// What the preset that holds unless told otherwise makes of the parameter; nothing when it leaves
+/// it alone.
+std::optional<std::string> by_default_preset(const Parameter& parameter) {
+  for (const auto& [name, value] : find_preset(default_preset).assignments) {
+    if (name == parameter.name) return value;
+  }
+  return std::nullopt;
+}
+
+std::string default_words(const Parameter& parameter) {
+  if (const auto value = by_default_preset(parameter)) {
+    return fmt::format("default {}, by preset {}", *value, default_preset);
+  }
+  const std::string value = to_text(parameter);
+  if (value.empty() || is_switch(parameter)) return "";
+  const bool suggested =
+      std::ranges::find(suggested_parameters, parameter.name) != std::end(suggested_parameters);
+  return fmt::format("default {}{}", value,
+                     suggested ? " " + default_exception(parameter) : std::string());
+}
+
+}  // namespace
+
 std::string help_sentence(const Parameter& parameter) {
   std::string text(parameter.sentence);
   std::string facts(parameter.unit);
@@ -46,8 +91,7 @@ std::string help_sentence(const Parameter& parameter) {
     facts += fact;
   };
   add(range_words(parameter));
-  const std::string value = to_text(parameter);
-  if (!value.empty() && !is_switch(parameter)) add(fmt::format("default {}", value));
+  add(default_words(parameter));
   return facts.empty() ? text : fmt::format("{} ({})", text, facts);
 }
 

@@ -23,8 +23,12 @@ class ParameterOptions {
   std::vector<std::pair<std::string, CLI::Option*>> options_;
 };
 
-/// "edges of the volume; m, 0.01 to 1000 (default 2,2,2)"
+/// "edges of the volume (m, 0.01 to 1000, default 2,2,2 unless the sequence has its own)"
 std::string help_sentence(const Parameter& parameter);
+
+/// Who sets the parameter in a run in which the user does not: "unless the sequence has its own",
+/// "unless preset fast sets it"; empty when the default holds.
+std::string default_exception(const Parameter& parameter);
 
 /// "0.01 to 1000", "grid or bricks"; empty where anything goes.
 std::string range_words(const Parameter& parameter);

@@ -21,6 +21,7 @@
 #include "interrupt.h"
 #include "io/files.h"
 #include "meters/clock.h"
+#include "open_sequence.h"
 #include "parameter_options.h"
 #include "progress.h"
 #include "results/provenance.h"
@@ -43,8 +44,10 @@ constexpr const char* footer =
     "  slambench run recording.raw --preset slambench1 --out results/mine\n"
     "\n"
     "The command line is stronger than the configuration file, the file than the\n"
-    "preset, the preset than what suits the sequence, that than the default.\n"
-    "An interrupted run (Ctrl-C) keeps the results so far, marked incomplete.";
+    "preset, the preset than what suits the sequence (its own slambench.toml, else\n"
+    "what 'slambench info' shows), that than the default.\n"
+    "An interrupted run (Ctrl-C) ends after the frame in progress and keeps the\n"
+    "results so far, marked incomplete; interrupted again, it ends at once.";
 
 /// What was said on the command line.
 struct RunArguments {
@@ -87,9 +90,15 @@ RunPlan make_plan(RunArguments& arguments) {
   return plan;
 }
 
-/// Fails now rather than after the run.
-void require_writable(const std::string& option, const std::string& file) {
+/// Whether a file can be written beside the results; fails now rather than after the run.
+void require_writable(const std::string& option, const std::string& file,
+                      const ResultFolder& results) {
   if (file.empty()) return;
+  if (results.contains(file)) {
+    throw UsageError(fmt::format(
+        "--{}: {} lies in the results folder {}, which is written as a whole; choose another place",
+        option, file, results.path()));
+  }
   const std::filesystem::path path(file);
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
@@ -99,6 +108,14 @@ void require_writable(const std::string& option, const std::string& file) {
   if (::access((folder / "").c_str(), W_OK) != 0) {
     throw Error(ExitStatus::failed,
                 fmt::format("--{}: {}: cannot write: {}", option, file, std::strerror(errno)));
+  }
+}
+
+void require_writable(const OutputParameters& output, const ResultFolder& results) {
+  require_writable("log-file", output.log_file, results);
+  require_writable("dump-volume", output.dump_volume, results);
+  if (!output.log_file.empty() && output.log_file == output.dump_volume) {
+    throw UsageError(fmt::format("--log-file and --dump-volume: both are {}", output.log_file));
   }
 }
 
@@ -153,6 +170,7 @@ Provenance provenance(const RunArguments& arguments, const Backend& backend,
   provenance.device = backend.device();
   provenance.driver = backend.driver();
   provenance.threads = backend.threads();
+  provenance.instruction_set = backend.instruction_set();
   provenance.command = arguments.command_line;
   return provenance;
 }
@@ -164,11 +182,25 @@ void write_outputs(const Record& record, System& system, const OutputParameters&
   if (!output.dump_volume.empty()) system.dump_volume(output.dump_volume);
 }
 
+/// "out/slambench.toml sets volume-size, init-pose"; empty when no file of the sequence's does.
+std::string own_settings(const Record& record) {
+  constexpr std::string_view own_file = "sequence file ";
+  std::string text;
+  for (const UsedParameter& parameter : record.parameters) {
+    if (!parameter.set_by.starts_with(own_file)) continue;
+    text += text.empty() ? parameter.set_by.substr(own_file.size()) + " sets " : ", ";
+    text += parameter.name;
+  }
+  return text;
+}
+
 /// What the reader of the sequence had to assume, in the columns of the summary.
-std::string notes_text(const SequenceInfo& info) {
+std::string notes_text(const Record& record, const SequenceInfo& info) {
   constexpr std::size_t label_width = 12, page_width = 80;
   std::string text;
-  for (const std::string& note : info.notes) {
+  std::vector<std::string> notes = info.notes;
+  if (auto own = own_settings(record); !own.empty()) notes.insert(notes.begin(), std::move(own));
+  for (const std::string& note : notes) {
     text += fmt::format("{:{}}{}\n", "note", label_width,
                         wrapped(note, page_width - label_width, label_width));
   }
@@ -180,7 +212,7 @@ ExitStatus report(const Record& record, const SequenceInfo& info, const std::str
   if (output.json) {
     print(record_json(record));
   } else if (!output.quiet) {
-    print(summary_text(record, folder, output_takes_colors()) + notes_text(info));
+    print(summary_text(record, folder, output_takes_colors()) + notes_text(record, info));
   }
   if (!record.complete) {
     throw Error(ExitStatus::failed,
@@ -198,16 +230,13 @@ ExitStatus run(RunArguments& arguments) {
       std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
   RunPlan plan = make_plan(arguments);
   AllParameters& p = arguments.parameters;
-  require_writable("log-file", p.output.log_file);
-  require_writable("dump-volume", p.output.dump_volume);
-
   const InterruptFlag interrupt;
-  const auto source = open_source(plan.sequence, p.source);
+  const auto source = open_sequence(plan.sequence, p.source, &plan.settings);
   const SequenceInfo& info = source->info();
-  plan.settings.suggest(info.suggested);
   const auto backend = create_backend(p.backend.backend, p.backend);
   const auto folder =
       open_results(p.output, default_result_folder(started_at, info.name, backend->name()));
+  require_writable(p.output, *folder);
   const bool show = !p.output.quiet && !p.output.json;
   prepare(*source, frames_to_run(info, p.run), show, interrupt);
   if (!p.source.ground_truth.empty()) check_ground_truth(*source, p.run);
@@ -232,6 +261,7 @@ ExitStatus run(RunArguments& arguments) {
     hooks.stop = &interrupt.raised();
     run_frames(*source, system, timer, steady_clock(), p.run, hooks, &record);
   }
+  record.provenance.load_average_end = load_average();
   judge(info, &record);
   record.repetition = repetition_of({run_figures(record)});
   write_outputs(record, system, p.output, *folder);

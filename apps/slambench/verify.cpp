@@ -11,6 +11,7 @@
 #include "config/settings.h"
 #include "datasets/source.h"
 #include "meters/clock.h"
+#include "open_sequence.h"
 #include "parameter_options.h"
 #include "progress.h"
 #include "terminal.h"
@@ -31,11 +32,11 @@ struct VerifyArguments {
 
 /// The first frames of a sequence, with the settings that suit it.
 Recording read_recording(const std::string& sequence, int frames) {
-  const auto source = open_source(sequence, {});
-  const SequenceInfo& info = source->info();
+  SourceParameters of_source;
   KinectFusionParameters parameters;
-  Settings settings({parameters.describe()});
-  settings.suggest(info.suggested);
+  Settings settings({of_source.describe(), parameters.describe()});
+  const auto source = open_sequence(sequence, of_source, &settings);
+  const SequenceInfo& info = source->info();
   std::vector<Frame> read;
   for (int i = 0; i < std::min(frames, info.frame_count); ++i) {
     read.emplace_back();

@@ -74,6 +74,14 @@ void Backend::check(bool condition, const char* message) {
   if (!condition) throw std::invalid_argument(message);
 }
 
+std::optional<Kernel> Backend::missing_kernel(MapKind map) const {
+  for (const KernelInfo& row : kernel_table()) {
+    const bool needed = row.kernel != Kernel::acquire && row.kernel != Kernel::align;
+    if (needed && !supports(row.kernel, map)) return row.kernel;
+  }
+  return std::nullopt;
+}
+
 Volume Backend::make_volume(MapKind map, Int3 resolution, Float3 size_m) {
   check(resolution.x > 0 && resolution.y > 0 && resolution.z > 0, "make_volume: no voxels");
   check(size_m.x > 0 && size_m.y > 0 && size_m.z > 0, "make_volume: no extent");

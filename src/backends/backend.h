@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -103,6 +104,12 @@ class Backend {
   virtual int threads() const { return 0; }
   /// An honest answer: whether the kernel is implemented for this map.
   virtual bool supports(Kernel kernel, MapKind map) const = 0;
+  /// The first kernel that a pipeline needs and that is missing for this map. `acquire` is none of
+  /// a backend's, and for `align` there are the single kernels.
+  std::optional<Kernel> missing_kernel(MapKind map) const;
+  /// The SIMD instruction set that kernels were chosen for on this processor, by Highway's name
+  /// ("AVX3", "NEON"); empty where none is chosen at run time.
+  virtual std::string instruction_set() const { return {}; }
   /// True: kernels report their own times through kernel_measured, at finish() at the latest.
   virtual bool times_itself() const { return false; }
   virtual void finish() {}

@@ -29,7 +29,11 @@ std::vector<Preset> preset_table() {
        {{"backend", quickest_backend()}, {"map", "auto"}, {"fused", "true"}}},
       {"slambench1",
        "the published behaviour: flat volume, the paper's kernels one by one",
-       {{"map", "grid"}, {"fused", "false"}, {"icl-nuim-camera", "slambench1"}}},
+       {{"map", "grid"},
+        {"fused", "false"},
+        {"icl-nuim-camera", "slambench1"},
+        {"light", "1,1,-1"},
+        {"light-frame", "volume"}}},
   };
 }
 

@@ -49,7 +49,7 @@ void Settings::apply(const ConfigFile& file) {
 }
 
 void Settings::suggest(const std::vector<std::pair<std::string, std::string>>& assignments) {
-  for (const auto& [name, value] : assignments) set(name, value, Origin::sequence, "sequence");
+  for (const auto& [name, value] : assignments) set(name, value, Origin::reader, "sequence");
 }
 
 const std::string& Settings::set_by(std::string_view name) const {

@@ -13,8 +13,9 @@
 
 namespace slambench {
 
-/// Who sets a value, from weak to strong.
-enum class Origin { defaults, sequence, preset, file, command_line };
+/// Who sets a value, from weak to strong: a sequence's reader suggests, a sequence's own file
+/// knows.
+enum class Origin { defaults, reader, sequence, preset, file, command_line };
 
 /// The parameters of one run and who set each. Whatever the order of the calls, the strongest
 /// origin wins; of one origin, the last call.
@@ -30,10 +31,10 @@ class Settings {
 
   void apply(const Preset& preset);
   void apply(const ConfigFile& file);
-  /// The sequence's suggestions.
+  /// What the sequence's reader suggests.
   void suggest(const std::vector<std::pair<std::string, std::string>>& assignments);
 
-  /// "default", "sequence", "preset NAME", "file PATH", "command line".
+  /// "default", "sequence", "sequence file PATH", "preset NAME", "file PATH", "command line".
   const std::string& set_by(std::string_view name) const;
 
   std::vector<UsedParameter> used() const;

@@ -83,9 +83,9 @@ void remove_leftovers(const std::string& folder) {
 
 }  // namespace
 
-/// The bytes of a chunk, in a file or in memory.
+/// The bytes of a chunk, of its file or held in memory.
 struct FrameCache::Chunk {
-  std::optional<MappedFile> file;
+  std::string file;
   Bytes bytes;
   std::vector<Entry> entries;
 
@@ -115,8 +115,8 @@ const FrameCache::Chunk* FrameCache::open(int chunk) {
     opened->bytes = std::as_bytes(std::span(held->second));
   } else {
     try {
-      opened->file.emplace(path_of(chunk));
-      opened->bytes = opened->file->bytes();
+      opened->file = read_file(path_of(chunk));
+      opened->bytes = std::as_bytes(std::span(opened->file));
     } catch (const InputError&) {
       return nullptr;
     }

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/processors.h"
 #include "datasets/frame_cache.h"
 #include "datasets/sequence_info.h"
 #include "io/text.h"
@@ -127,7 +128,7 @@ const RenderedSequence& LivingRoomSource::scene() {
   if (scene_ == nullptr || (wants_color() && !scene_has_color_)) {
     scene_ = std::make_unique<RenderedSequence>(living_room(), trajectory_,
                                                 wants_color() ? Shading::diffuse : Shading::none,
-                                                noise_seed_, all_threads());
+                                                noise_seed_, usable_processors());
     scene_has_color_ = wants_color();
   }
   return *scene_;
@@ -179,7 +180,7 @@ void LivingRoomSource::prepare(int frames, const PrepareProgress& progress) {
     }
   };
   const RenderedSequence& shared = scene();
-  parallel_for(static_cast<int>(missing.size()), all_threads(), [&](int i) {
+  parallel_for(static_cast<int>(missing.size()), usable_processors(), [&](int i) {
     const int chunk = missing[static_cast<std::size_t>(i)];
     if (has(chunk)) {  // by now, from another process
       rendered(frames_in(chunk));

@@ -17,14 +17,20 @@
 #include <system_error>
 
 #include "core/error.h"
-#include "datasets/sequence_folder.h"
+#include "core/processors.h"
+#include "datasets/sequence_info.h"
 #include "io/files.h"
 #include "io/png.h"
 #include "io/trajectory_file.h"
+#include "io/whole_folder.h"
 #include "scene/parallel.h"
 
 namespace slambench {
 namespace {
+
+constexpr FolderKind generated_sequence = {
+    "generated sequence", sequence_settings,
+    [](const std::filesystem::path& folder) { return is_file(folder / sequence_settings); }};
 
 /// One way of writing frames. `write` is called for several frames at once.
 class FrameWriter {
@@ -48,7 +54,7 @@ std::string camera_text() {
 
 class TumWriter final : public FrameWriter {
  public:
-  TumWriter(const SequenceFolder& folder, const Trajectory& trajectory)
+  TumWriter(const WholeFolder& folder, const Trajectory& trajectory)
       : folder_(folder), trajectory_(trajectory) {
     folder.make_folder("depth");
     folder.make_folder("rgb");
@@ -81,14 +87,14 @@ class TumWriter final : public FrameWriter {
     return fmt::format("{:.6f}.png", trajectory_[static_cast<std::size_t>(index)].time_s);
   }
 
-  const SequenceFolder& folder_;
+  const WholeFolder& folder_;
   const Trajectory& trajectory_;
 };
 
 /// ICL-NUIM's world has y up and the second frame at (0, 0, -2.25), looking along z.
 class IclWriter final : public FrameWriter {
  public:
-  IclWriter(const SequenceFolder& folder, std::string trajectory)
+  IclWriter(const WholeFolder& folder, std::string trajectory)
       : folder_(folder), trajectory_(std::move(trajectory)) {
     for (int v = 0; v < rendered_size.height; ++v) {
       for (int u = 0; u < rendered_size.width; ++u) {
@@ -136,7 +142,7 @@ class IclWriter final : public FrameWriter {
   }
 
  private:
-  const SequenceFolder& folder_;
+  const WholeFolder& folder_;
   const std::string trajectory_;
   std::vector<float> distance_per_depth_;
 };
@@ -144,7 +150,7 @@ class IclWriter final : public FrameWriter {
 /// Frames of one size, each at its place in the file.
 class RawWriter final : public FrameWriter {
  public:
-  explicit RawWriter(const SequenceFolder& folder)
+  explicit RawWriter(const WholeFolder& folder)
       : folder_(folder),
         file_(::open(folder.file("sequence.raw").c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
                      0666)) {
@@ -202,11 +208,11 @@ class RawWriter final : public FrameWriter {
     }
   }
 
-  const SequenceFolder& folder_;
+  const WholeFolder& folder_;
   int file_;
 };
 
-std::unique_ptr<FrameWriter> make_writer(const WrittenSequence& what, const SequenceFolder& folder,
+std::unique_ptr<FrameWriter> make_writer(const WrittenSequence& what, const WholeFolder& folder,
                                          const Trajectory& trajectory) {
   switch (what.layout) {
     case WrittenLayout::tum:
@@ -222,7 +228,8 @@ std::unique_ptr<FrameWriter> make_writer(const WrittenSequence& what, const Sequ
 /// A configuration file with which the sequence can be run.
 std::string configuration(const WrittenSequence& what) {
   std::string text = fmt::format(
-      "# {}\n# Written by slambench generate. --config and this file set what suits it.\n",
+      "# {}\n# Written by slambench generate. A run of this sequence takes its settings from "
+      "here.\n",
       what.sentence);
   if (!what.suggested.empty()) text += "\n[kinectfusion]\n";
   for (const auto& [name, value] : what.suggested) {
@@ -244,12 +251,12 @@ std::vector<int> write_sequence(const RenderedSequence& sequence, const Mesh& su
         "--frames: found 1, expected at least 2: ICL-NUIM's ground truth has no pose "
         "of the first frame");
   }
-  SequenceFolder folder(folder_path, force);
+  WholeFolder folder(folder_path, force, generated_sequence);
   const auto writer = make_writer(what, folder, trajectory);
   std::mutex reporting;
   int done = 0;
   std::vector<int> blind;
-  parallel_for(what.frames, all_threads(), [&](int i) {
+  parallel_for(what.frames, usable_processors(), [&](int i) {
     thread_local Rendering frame;
     sequence.render(i, frame);
     const bool something = writer->write(i, frame);
@@ -266,7 +273,7 @@ std::vector<int> write_sequence(const RenderedSequence& sequence, const Mesh& su
         "it, with x right, y down, z forward and in metres?");
   }
   writer->finish(trajectory, surface);
-  write_file(folder.file(sequence_mark), configuration(what));
+  write_file(folder.file(std::string(sequence_settings)), configuration(what));
   folder.commit();
   return blind;
 }

@@ -30,7 +30,7 @@ struct WrittenSequence {
 /// Renders the sequence with all cores and writes it to the folder, with its ground truth, the
 /// surface (surface.ply) in the world of the ground truth, and slambench.toml, a configuration for
 /// running it. `progress` is told the frames done. Returns the indices of frames that see nothing
-/// of the surface within the depth that the layout can hold. Throws as SequenceFolder does;
+/// of the surface within the depth that the layout can hold. Throws as WholeFolder does;
 /// UsageError for fewer frames than the layout needs; InputError when no frame sees anything; Error
 /// when writing fails or `progress` ends it: nothing is left then.
 std::vector<int> write_sequence(const RenderedSequence& sequence, const Mesh& surface,

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <numeric>
 #include <optional>
+#include <span>
 
 #include "core/error.h"
 #include "datasets/sequence_info.h"
@@ -23,19 +23,23 @@ static_assert(std::endian::native == std::endian::little, "pixels are copied as 
 
 namespace fs = std::filesystem;
 
-using Bytes = std::span<const std::byte>;
-
 constexpr std::size_t header_bytes = 8;
 
-/// The size in a frame's header, or nothing when it is none of an image.
-std::optional<Size> parse_header(Bytes header) {
+using Sides = std::array<std::uint32_t, 2>;
+
+/// The size that a frame's header tells, or nothing when it is none of an image.
+std::optional<Size> size_of(const Sides& sides) {
   constexpr std::uint32_t largest_side = 16384;
-  std::uint32_t sides[2];
-  std::memcpy(sides, header.data(), sizeof sides);
   for (const std::uint32_t side : sides) {
     if (side == 0 || side > largest_side) return std::nullopt;
   }
   return Size{static_cast<int>(sides[0]), static_cast<int>(sides[1])};
+}
+
+Sides read_header(const PiecewiseFile& file, std::size_t offset) {
+  Sides sides{};
+  file.read(offset, std::as_writable_bytes(std::span(sides)));
+  return sides;
 }
 
 /// Where things lie in a file of frames of one size.
@@ -57,16 +61,16 @@ struct Defect {
 };
 
 /// What is wrong with the header at this place, if anything.
-std::optional<Defect> header_defect(Bytes file, const Layout& layout, std::size_t frame,
-                                    std::size_t offset) {
-  std::uint32_t sides[2];
-  std::memcpy(sides, file.data() + offset, sizeof sides);
-  if (parse_header(file.subspan(offset)) == layout.size) return std::nullopt;
+std::optional<Defect> header_defect(const PiecewiseFile& file, const Layout& layout,
+                                    std::size_t frame, std::size_t offset) {
+  const Sides sides = read_header(file, offset);
+  if (size_of(sides) == layout.size) return std::nullopt;
   return Defect{frame, offset, fmt::format("size {}x{}", sides[0], sides[1]),
                 fmt::format("{}x{} as in the first frame", layout.size.width, layout.size.height)};
 }
 
-std::optional<Defect> frame_defect(Bytes file, const Layout& layout, std::size_t frame) {
+std::optional<Defect> frame_defect(const PiecewiseFile& file, const Layout& layout,
+                                   std::size_t frame) {
   const std::size_t offset = frame * layout.frame_bytes();
   const auto check = [&](std::size_t at) -> std::optional<Defect> {
     if (at + header_bytes > file.size()) return std::nullopt;  // truncated: reported as that
@@ -83,7 +87,7 @@ std::optional<Defect> frame_defect(Bytes file, const Layout& layout, std::size_t
 
 /// Checks the first and last frames; `read` checks the others when they are needed, since touching
 /// every header of a file larger than the memory takes long.
-std::optional<Defect> find_defect(Bytes file, const Layout& layout) {
+std::optional<Defect> find_defect(const PiecewiseFile& file, const Layout& layout) {
   constexpr std::size_t checked = 32;
   const std::size_t frames = (file.size() + layout.frame_bytes() - 1) / layout.frame_bytes();
   for (std::size_t frame = 0; frame < frames; ++frame) {
@@ -99,13 +103,13 @@ std::optional<Defect> find_defect(Bytes file, const Layout& layout) {
 }
 
 /// With colour or without, whichever has no defect; else whichever goes well for longer.
-Layout detect_layout(const std::string& path, Bytes file) {
-  if (file.empty()) throw InputError(path + ": the file is empty, expected frames");
+Layout detect_layout(const std::string& path, const PiecewiseFile& file) {
+  if (file.size() == 0) throw InputError(path + ": the file is empty, expected frames");
   if (file.size() < header_bytes) {
     reject(path, {0, 0, fmt::format("{} bytes to the end", file.size()),
                   "a header of 8 bytes (the file is truncated)"});
   }
-  const auto size = parse_header(file);
+  const auto size = size_of(read_header(file, 0));
   if (!size) {
     throw InputError(path, "frame 0 at byte 0", "no width and height from 1 to 16384",
                      "a frame of SLAMBench 1 (u32 width, u32 height, depth)");
@@ -126,13 +130,18 @@ class RawSource final : public Source {
   double time_s(int index) override { return index; }
 
  private:
-  MappedFile file_;
+  template <class T>
+  void read_pixels(std::size_t offset, Image<T>& image) const {
+    file_.read(offset, std::as_writable_bytes(std::span(image.data(), image.count())));
+  }
+
+  PiecewiseFile file_;
   Layout layout_;
   SequenceInfo info_;
 };
 
 RawSource::RawSource(const std::string& path, const SourceParameters& parameters)
-    : file_(path), layout_(detect_layout(path, file_.bytes())) {
+    : file_(path), layout_(detect_layout(path, file_)) {
   info_.name = sequence_name(path);
   info_.layout = "slambench-raw";
   info_.path = path;
@@ -140,7 +149,7 @@ RawSource::RawSource(const std::string& path, const SourceParameters& parameters
   info_.camera = {531.15F, 531.15F, 320, 240};
   info_.units_per_m = 1000;
   info_.has_color = layout_.has_color;
-  std::vector<double> stamps_s(file_.bytes().size() / layout_.frame_bytes());
+  std::vector<double> stamps_s(file_.size() / layout_.frame_bytes());
   std::iota(stamps_s.begin(), stamps_s.end(), 0);
   std::string ground_truth = fs::path(path).replace_extension(".groundtruth.txt");
   if (!is_present(ground_truth)) ground_truth.clear();
@@ -152,20 +161,16 @@ void RawSource::read(int index, Frame& frame) {
   if (index < 0 || index >= info_.frame_count) {
     throw std::out_of_range(fmt::format("frame {} of {}", index, info_.frame_count));
   }
-  const Bytes file = file_.bytes();
   const auto number = static_cast<std::size_t>(index);
-  if (const auto defect = frame_defect(file, layout_, number)) reject(info_.path, *defect);
-  const std::byte* const depth = file.data() + number * layout_.frame_bytes() + header_bytes;
+  if (const auto defect = frame_defect(file_, layout_, number)) reject(info_.path, *defect);
+  const std::size_t depth = number * layout_.frame_bytes() + header_bytes;
   frame.index = index;
   frame.time_s = index;
   frame.depth.resize(layout_.size);
-  std::memcpy(frame.depth.data(), depth, frame.depth.bytes());
+  read_pixels(depth, frame.depth);
   frame.color.resize(wants_color() && layout_.has_color ? layout_.size : Size{});
-  if (!frame.color.empty()) {
-    static_assert(sizeof(Rgb8) == 3);
-    std::memcpy(frame.color.data(), depth + frame.depth.bytes() + header_bytes,
-                frame.color.bytes());
-  }
+  static_assert(sizeof(Rgb8) == 3);
+  if (!frame.color.empty()) read_pixels(depth + frame.depth.bytes() + header_bytes, frame.color);
 }
 
 }  // namespace
@@ -173,10 +178,12 @@ void RawSource::read(int index, Frame& frame) {
 bool is_slambench_raw(const std::string& sequence) {
   if (!is_file(sequence)) return false;
   if (fs::path(sequence).extension() == ".raw") return true;
-  std::ifstream file(sequence, std::ios::binary);
-  std::array<std::byte, header_bytes> header{};
-  file.read(reinterpret_cast<char*>(header.data()), header.size());
-  return file && parse_header(header);
+  try {
+    const PiecewiseFile file(sequence);
+    return file.size() >= header_bytes && size_of(read_header(file, 0)).has_value();
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 std::unique_ptr<Source> open_slambench_raw(const std::string& sequence,

@@ -96,6 +96,13 @@ const std::vector<SourceEntry>& source_table() {
   return table;
 }
 
+std::string sequence_settings_file(const std::string& sequence) {
+  if (sequence.empty() || is_living_room(sequence)) return "";
+  const fs::path place(sequence);
+  const fs::path file = (is_folder(sequence) ? place : place.parent_path()) / sequence_settings;
+  return is_file(file) ? file.string() : "";
+}
+
 std::unique_ptr<Source> open_source(const std::string& name, const SourceParameters& parameters) {
   std::string sequence = name;
   while (sequence.size() > 1 && sequence.ends_with('/')) sequence.pop_back();

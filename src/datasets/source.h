@@ -103,6 +103,16 @@ struct SourceEntry {
 /// In the order of detection.
 const std::vector<SourceEntry>& source_table();
 
+/// The parameters that readers suggest values for (SequenceInfo::suggested).
+inline constexpr std::string_view suggested_parameters[] = {"compute-size-ratio", "volume-size",
+                                                            "init-pose"};
+
+/// What a sequence's own settings are called: a configuration file as --config takes it.
+inline constexpr std::string_view sequence_settings = "slambench.toml";
+
+/// Where they are: in the sequence's folder, or beside its file. "" when there are none.
+std::string sequence_settings_file(const std::string& sequence);
+
 /// Opens a sequence, whatever its layout. Throws InputError that says what was looked for when
 /// nothing matches, UnavailableError for a layout that was not built in.
 std::unique_ptr<Source> open_source(const std::string& sequence, const SourceParameters&);

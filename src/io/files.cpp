@@ -4,7 +4,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -39,6 +38,7 @@ class FileDescriptor {
   FileDescriptor& operator=(const FileDescriptor&) = delete;
 
   int number() const { return number_; }
+  int release() { return std::exchange(number_, -1); }
   /// False, with errno set, when the system reports a delayed error.
   bool close() {
     const int number = std::exchange(number_, -1);
@@ -57,7 +57,15 @@ struct stat status_of(const std::string& path, const FileDescriptor& file) {
   return status;
 }
 
-int open_to_read(const std::string& path) { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC); }
+/// Opening does not wait for whoever is at the other end of a pipe or device.
+constexpr int open_at_once = O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
+
+int open_to_read(const std::string& path) { return ::open(path.c_str(), O_RDONLY | open_at_once); }
+
+/// From now on reading or writing waits for the other end.
+void wait_for_the_other_end(int file) {
+  ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);
+}
 
 void write_all(const std::string& path, int file, std::string_view contents) {
   while (!contents.empty()) {
@@ -119,8 +127,10 @@ void write_file(const std::string& path, std::string_view contents) {
   if (present && S_ISDIR(present->st_mode)) cannot_write(path, "it is a folder, not a file");
   if (present && ::access(path.c_str(), W_OK) != 0) cannot_write(path, reason(errno));
   if (present && !S_ISREG(present->st_mode)) {  // a pipe or device: it must stay what it is
-    FileDescriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    FileDescriptor device(::open(path.c_str(), O_WRONLY | open_at_once));
+    if (device.number() < 0 && errno == ENXIO) cannot_write(path, "nobody reads from this pipe");
     if (device.number() < 0) cannot_write(path, reason(errno));
+    wait_for_the_other_end(device.number());
     write_all(path, device.number(), contents);
     return;
   }
@@ -141,36 +151,54 @@ void write_file(const std::string& path, std::string_view contents) {
 std::string read_file(const std::string& path) {
   const FileDescriptor file(open_to_read(path));
   const struct stat status = status_of(path, file);
-  if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode)) cannot_read(path, "it is not a file");
+  const bool pipe = S_ISFIFO(status.st_mode);
+  if (!S_ISREG(status.st_mode) && !pipe) cannot_read(path, "it is not a file");
   // One byte more than the size, so that the end is seen without growing; a pipe has size 0.
   std::string contents(static_cast<std::size_t>(status.st_size) + 1, '\0');
   for (std::size_t used = 0;;) {
     if (used == contents.size()) contents.resize(std::max<std::size_t>(used * 2, 4096));
     const ssize_t count = ::read(file.number(), contents.data() + used, contents.size() - used);
     if (count < 0 && errno == EINTR) continue;
+    if (count < 0 && errno == EAGAIN) {  // a writer is there and will write
+      wait_for_the_other_end(file.number());
+      continue;
+    }
     if (count < 0) cannot_read(path, reason(errno));
     used += static_cast<std::size_t>(count);
     if (count == 0) {
+      if (pipe && used == 0) cannot_read(path, "it is a pipe that nobody writes to");
       contents.resize(used);
       return contents;
     }
   }
 }
 
-MappedFile::MappedFile(const std::string& path) {
-  const FileDescriptor file(open_to_read(path));
-  const struct stat status = status_of(path, file);
-  if (!S_ISREG(status.st_mode)) cannot_read(path, "it is not a file");
-  const auto size = static_cast<std::size_t>(status.st_size);
-  if (size == 0) return;  // nothing cannot be mapped
-  void* const address = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number(), 0);
-  if (address == MAP_FAILED) cannot_read(path, reason(errno));
-  ::madvise(address, size, MADV_SEQUENTIAL);  // a hint: failing is harmless
-  bytes_ = {static_cast<const std::byte*>(address), size};
+PiecewiseFile::PiecewiseFile(std::string path) : path_(std::move(path)) {
+  FileDescriptor file(open_to_read(path_));
+  const struct stat status = status_of(path_, file);
+  if (!S_ISREG(status.st_mode)) cannot_read(path_, "it is not a file");
+  size_ = static_cast<std::size_t>(status.st_size);
+  ::posix_fadvise(file.number(), 0, 0, POSIX_FADV_SEQUENTIAL);  // a hint: failing is harmless
+  file_ = file.release();
 }
 
-MappedFile::~MappedFile() {
-  if (!bytes_.empty()) ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
+PiecewiseFile::~PiecewiseFile() { ::close(file_); }
+
+void PiecewiseFile::read(std::size_t offset, std::span<std::byte> destination) const {
+  while (!destination.empty()) {
+    const ssize_t count =
+        ::pread(file_, destination.data(), destination.size(), static_cast<off_t>(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) cannot_read(path_, reason(errno));
+    if (count == 0) {
+      struct stat now {};
+      ::fstat(file_, &now);
+      cannot_read(
+          path_, fmt::format("it has {} bytes, and had {} when it was opened", now.st_size, size_));
+    }
+    offset += static_cast<std::size_t>(count);
+    destination = destination.subspan(static_cast<std::size_t>(count));
+  }
 }
 
 std::string cache_folder() {

@@ -13,21 +13,29 @@ namespace slambench {
 /// Throws Error(failed) naming the file and the system's reason; nothing is left behind then.
 void write_file(const std::string& path, std::string_view contents);
 
-/// The whole file. Throws InputError naming the file and the system's reason; a folder is not one.
+/// The whole file, or what comes through a pipe that somebody writes to. Throws InputError naming
+/// the file and the system's reason; a folder or a device is no file.
 std::string read_file(const std::string& path);
 
-/// A file mapped for reading, of any size.
-class MappedFile {
+/// A file of any size that is read in pieces. It may be changed or shortened meanwhile: unlike of a
+/// mapped one, what is missing then is an error and not the end of the process.
+class PiecewiseFile {
  public:
   /// Throws InputError naming the file and the system's reason.
-  explicit MappedFile(const std::string& path);
-  ~MappedFile();
-  MappedFile(const MappedFile&) = delete;
-  MappedFile& operator=(const MappedFile&) = delete;
-  std::span<const std::byte> bytes() const { return bytes_; }
+  explicit PiecewiseFile(std::string path);
+  ~PiecewiseFile();
+  PiecewiseFile(const PiecewiseFile&) = delete;
+  PiecewiseFile& operator=(const PiecewiseFile&) = delete;
+
+  /// Bytes when it was opened.
+  std::size_t size() const { return size_; }
+  /// Fills all of `destination` from this place on. Throws InputError when the file ends before.
+  void read(std::size_t offset, std::span<std::byte> destination) const;
 
  private:
-  std::span<const std::byte> bytes_;
+  const std::string path_;
+  int file_ = -1;
+  std::size_t size_ = 0;
 };
 
 /// The user's cache folder for this program: $XDG_CACHE_HOME/slambench, else ~/.cache/slambench.

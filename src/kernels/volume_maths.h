@@ -17,6 +17,16 @@ SLAMBENCH_HD inline Float3 voxel_size(Int3 resolution, Float3 size_m) {
           size_m.z / static_cast<float>(resolution.z)};
 }
 
+/// The flat volume has x fastest, then y, then z.
+SLAMBENCH_HD inline std::size_t voxel_index(Int3 resolution, int x, int y, int z) {
+  const auto row = static_cast<std::size_t>(z) * static_cast<std::size_t>(resolution.y) +
+                   static_cast<std::size_t>(y);
+  return row * static_cast<std::size_t>(resolution.x) + static_cast<std::size_t>(x);
+}
+SLAMBENCH_HD inline std::size_t voxel_count(Int3 resolution) {
+  return voxel_index(resolution, 0, 0, resolution.z);
+}
+
 /// The centre of voxel (x, y, z) in the volume's frame, whose origin is its corner.
 SLAMBENCH_HD inline Float3 voxel_center(int x, int y, int z, Float3 voxel_m) {
   return {(static_cast<float>(x) + 0.5f) * voxel_m.x, (static_cast<float>(y) + 0.5f) * voxel_m.y,
@@ -184,17 +194,14 @@ SLAMBENCH_HD inline Rgba8 shade(Float3 vertex, Float3 normal, const ShadeParamet
   return {grey, grey, grey, 255};
 }
 
-/// The flat volume: voxels with x fastest, then y, then z.
+/// The flat volume.
 struct GridView {
   const Voxel* voxels = nullptr;
   Int3 resolution;
   Float3 size_m;
 
   SLAMBENCH_HD float tsdf(int x, int y, int z) const {
-    const auto row = static_cast<std::size_t>(z) * static_cast<std::size_t>(resolution.y) +
-                     static_cast<std::size_t>(y);
-    return static_cast<float>(
-        voxels[row * static_cast<std::size_t>(resolution.x) + static_cast<std::size_t>(x)].tsdf);
+    return static_cast<float>(voxels[voxel_index(resolution, x, y, z)].tsdf);
   }
 };
 

@@ -16,7 +16,9 @@ double FrameTimes::total_s() const {
 void FrameTimer::stage_begin(Stage) { stage_begin_s_ = clock_.now_s(); }
 
 void FrameTimer::stage_end(Stage stage) {
-  times_.stage_s[static_cast<std::size_t>(stage)] += clock_.now_s() - stage_begin_s_;
+  const auto i = static_cast<std::size_t>(stage);
+  times_.stage_s[i] += clock_.now_s() - stage_begin_s_;
+  ++times_.stage_calls[i];
 }
 
 void FrameTimer::kernel_begin(Kernel) { kernel_begin_s_ = clock_.now_s(); }

@@ -9,9 +9,10 @@
 
 namespace slambench {
 
-/// Seconds spent in one frame, and how often each kernel was called.
+/// Seconds spent in one frame, and how often each stage was entered and each kernel called.
 struct FrameTimes {
   std::array<double, stage_count> stage_s{};
+  std::array<int, stage_count> stage_calls{};
   std::array<double, kernel_count> kernel_s{};
   std::array<int, kernel_count> kernel_calls{};
 

@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #include "meters/machine.h"
 
-#include <sched.h>
-
 #include <algorithm>
 #include <barrier>
 #include <cstring>
@@ -14,6 +12,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/processors.h"
 #include "meters/fma.h"
 
 namespace slambench {
@@ -24,12 +23,6 @@ constexpr std::size_t copy_bytes = std::size_t{256} << 20;  ///< source and dest
 constexpr std::size_t copy_pieces = 16;
 constexpr std::int64_t fma_rounds = 1 << 18;  ///< below a millisecond
 
-int usable_cores() {
-  cpu_set_t cores;
-  if (sched_getaffinity(0, sizeof cores, &cores) == 0) return std::max(1, CPU_COUNT(&cores));
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 /// The best rate of `work(thread)`, which returns how much it did, done by all threads at once.
 double best_rate(const Clock& clock, int threads, const std::function<double(int)>& work) {
   std::vector<double> amounts(static_cast<std::size_t>(threads));
@@ -37,7 +30,6 @@ double best_rate(const Clock& clock, int threads, const std::function<double(int
   double begin_s = 0;
   bool done = false;
   int rounds = 0;
-  // Runs between rounds, when all threads have arrived.
   // Runs between rounds, when all threads have arrived. The first round warms up.
   const auto between = [&]() noexcept {
     const double now_s = clock.now_s();
@@ -110,7 +102,7 @@ double fma_rate(const Clock& clock, int threads) {
 }  // namespace
 
 MachineCeiling measure_machine(const Clock& clock, int threads) {
-  if (threads <= 0) threads = usable_cores();
+  if (threads <= 0) threads = usable_processors();
   return {threads, copy_rate(clock, threads), fma_rate(clock, threads),
           multiply_add_instruction_set()};
 }

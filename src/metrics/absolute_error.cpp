@@ -98,6 +98,7 @@ Similarity align(const Trajectory& estimate, const Trajectory& ground_truth, Ali
   }
   Similarity similarity;
   if (alignment == Alignment::first_pose) {
+    require_pairs(estimate, ground_truth, 2);  // one fits whatever it is
     similarity.rigid =
         ground_truth.front().T_world_camera * estimate.front().T_world_camera.inverse();
   }

@@ -60,8 +60,9 @@ struct Similarity {
 };
 
 /// `estimate` and `ground_truth` are paired by index. The rotation is proper (determinant +1).
-/// Throws InputError when the pairs do not determine the alignment: none at all; for se3 and sim3
-/// fewer than 3, or positions all on one line or in one point; or numbers too large for it.
+/// Throws InputError when the pairs do not determine the alignment: none at all; for
+/// first_pose fewer than 2, as one always fits; for se3 and sim3 fewer than 3, or positions all on
+/// one line or in one point; or numbers too large for it.
 Similarity align(const Trajectory& estimate, const Trajectory& ground_truth, Alignment alignment);
 
 /// Absolute trajectory error (Sturm et al., IROS 2012): distances of aligned positions, m.
@@ -102,7 +103,8 @@ RpeResult tum_relative_pose_error(const Trajectory& estimate, const Trajectory& 
 
 /// The absolute trajectory error as SLAMBench 1 published it: row p of its log, the position
 /// relative to the start BEFORE frame p is processed, against row p of the ground-truth file,
-/// which in ICL-NUIM belongs to frame p + 1: two frames late. The positions are turned to the
+/// whatever its time stamp. In ICL-NUIM's files that row belongs to frame p + 1, so that the figure
+/// is two frames late; in a file with a row for frame 0 it is one. The positions are turned to the
 /// ground truth's axes (the published script flips Y) and shifted by the first row; there is no
 /// other alignment. Rows that only one side has do not count.
 Statistics slambench1_ate(std::span<const Eigen::Vector3d> positions_before_frame,

@@ -122,7 +122,8 @@ void add_times(const FrameTimes& times, Rows* rows) {
   rows->add(times.computation_s());
   rows->add(times.total_s());
   for (std::size_t i = 0; i < stage_count; ++i) {
-    if (within_frames(static_cast<Stage>(i))) rows->add(times.stage_s[i]);
+    if (!within_frames(static_cast<Stage>(i))) continue;
+    times.stage_calls[i] > 0 ? rows->add(times.stage_s[i]) : rows->add_empty(1);
   }
   for (const KernelInfo& kernel : kernel_table()) {
     if (!within_frames(kernel.stage)) continue;

@@ -4,12 +4,12 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <sched.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <iterator>
@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/processors.h"
 #include "results/commit.h"
 
 namespace slambench {
@@ -96,13 +97,6 @@ std::string operating_system() {
   return text + fmt::format("{} {} {}", system.sysname, system.release, system.machine);
 }
 
-int usable_processors() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  if (sched_getaffinity(0, sizeof set, &set) == 0) return CPU_COUNT(&set);
-  return static_cast<int>(std::max(1L, sysconf(_SC_NPROCESSORS_ONLN)));
-}
-
 std::size_t memory_bytes() {
   return static_cast<std::size_t>(std::max(0L, sysconf(_SC_PHYS_PAGES))) *
          static_cast<std::size_t>(std::max(0L, sysconf(_SC_PAGE_SIZE)));
@@ -117,6 +111,12 @@ std::string version_text() {
   const std::string_view dirty = dash == std::string_view::npos ? "" : commit.substr(dash);
   return fmt::format("{} ({}{})", SLAMBENCH_VERSION, commit.substr(0, std::min(dash, digits)),
                      dirty);
+}
+
+std::optional<double> load_average() {
+  double last_minute = 0;
+  if (::getloadavg(&last_minute, 1) != 1) return std::nullopt;
+  return last_minute;
 }
 
 std::string cpu_model(std::string_view cpuinfo) {
@@ -157,6 +157,7 @@ Provenance build_and_machine(std::chrono::sys_seconds started_at) {
   p.build_type = SLAMBENCH_BUILD_TYPE;
   p.cpu = cpu_model(system_file("/proc/cpuinfo"));
   p.cores = usable_processors();
+  p.load_average_start = load_average();
   p.os = operating_system();
   p.host_memory_bytes = memory_bytes();
   p.started_at = utc_text(started_at);

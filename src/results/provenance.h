@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,10 @@ std::string version_text();
 /// What build and machine say of themselves; backend, device, driver and command are left to the
 /// caller. Neither the user's nor the machine's name is in it.
 Provenance build_and_machine(std::chrono::sys_seconds started_at);
+
+/// How many processes wanted a processor of this machine in the last minute, on average; none where
+/// the system does not tell.
+std::optional<double> load_average();
 
 /// The processor model in the text of Linux's /proc/cpuinfo: the model name, or the kinds of ARM
 /// cores ("4x ARM Cortex-A7, 4x ARM Cortex-A15"); "unknown" when it tells neither.

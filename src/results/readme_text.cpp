@@ -24,6 +24,10 @@ Files
                   frame was tracked, in the start camera's axes (y down).
 )";
 
+constexpr std::string_view ground_truth =
+    R"(  groundtruth.tum the true camera in the same format, axes and stamps.
+)";
+
 constexpr std::string_view images =
     R"(  images/         pictures of some frames, named by frame: the depth image, what
                   became of each pixel in tracking (grey used, black no
@@ -33,8 +37,8 @@ constexpr std::string_view images =
 
 constexpr std::string_view evaluation = R"(
 To judge the trajectory again, by this program or by evo:
-  slambench evaluate trajectory.tum GROUND_TRUTH
-  evo_ape tum GROUND_TRUTH trajectory.tum --align
+  slambench evaluate trajectory.tum groundtruth.tum
+  evo_ape tum groundtruth.tum trajectory.tum --align
 )";
 
 }  // namespace
@@ -57,11 +61,13 @@ std::string readme_text(const Record& record, bool with_images) {
   const auto reasons = reasons_invalid(record);
   for (const std::string& reason : reasons) text += fmt::format("\nINVALID: {}\n", reason);
   text += files;
+  const bool judged = !record.ground_truth.empty();
+  if (judged) text += ground_truth;
   if (with_images) text += images;
   if (!record.ground_truth_file.empty()) {
     text += fmt::format("\nGround truth: {}\n", record.ground_truth_file);
   }
-  text += evaluation;
+  if (judged) text += evaluation;
   return text;
 }
 

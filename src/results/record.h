@@ -20,7 +20,8 @@ namespace slambench {
 /// A parameter as it was used, and who set it.
 struct UsedParameter {
   std::string group, name, unit, value;
-  std::string set_by;  ///< "default", "sequence", "preset slambench1", "file PATH", "command line"
+  /// "default", "sequence", "sequence file PATH", "preset slambench1", "file PATH", "command line".
+  std::string set_by;
 };
 
 /// One processed or dropped frame.
@@ -44,9 +45,12 @@ struct Provenance {
   std::string version, commit;  ///< of this program; commit ends in "-dirty" when it was
   std::string compiler, flags, build_type;
   std::string cpu, os, backend, device, driver;
-  int cores = 0;    ///< logical processors that the process may use
-  int threads = 0;  ///< that the kernels ran on; 0: on a device of its own
+  std::string instruction_set;  ///< that SIMD kernels were chosen for; empty: none were
+  int cores = 0;                ///< logical processors that the process may use
+  int threads = 0;              ///< that the kernels ran on; 0: on a device of its own
   std::size_t host_memory_bytes = 0;
+  /// Of the last minute, before and after the frames: how many processes wanted a processor.
+  std::optional<double> load_average_start, load_average_end;
   std::string command;     ///< the command line as given
   std::string started_at;  ///< UTC, ISO 8601
 };
@@ -95,7 +99,9 @@ struct Record {
   Intrinsics camera;
   float units_per_m = 0;
   Eigen::Matrix3d own_from_camera = Eigen::Matrix3d::Identity();
-  std::string input_hash;  ///< XXH3-128 over index and depth of every processed frame, in order
+  std::string input_hash;   ///< XXH3-128 over index and depth of every processed frame, in order
+  Trajectory ground_truth;  ///< in the sequence's own axes and stamps; may be empty
+  std::string ground_truth_hash;  ///< XXH3-128 over trajectory_text() of it; empty when it is
 
   // What happened.
   std::vector<FrameRecord> frames;
@@ -112,7 +118,7 @@ struct Record {
   // How good it was.
   std::optional<TrajectoryFigures> over_processed;  ///< poses of processed frames
   std::optional<TrajectoryFigures> over_all;        ///< dropped frames hold the last pose
-  std::optional<Statistics> slambench1_ate_m;       ///< the published convention, two frames late
+  std::optional<Statistics> slambench1_ate_m;       ///< the published convention, by row
   bool valid = true;
   std::vector<std::string> invalid_reasons;
   /// Why a figure could not be measured, by its place in record.json

@@ -56,6 +56,9 @@ Json provenance_json(const Provenance& p) {
   put_text(&json, "cpu", p.cpu);
   if (p.cores > 0) json["cores"] = p.cores;
   if (p.threads > 0) json["threads"] = p.threads;
+  put_text(&json, "instruction_set", p.instruction_set);
+  if (p.load_average_start) json["load_average_start"] = *p.load_average_start;
+  if (p.load_average_end) json["load_average_end"] = *p.load_average_end;
   put_text(&json, "os", p.os);
   if (p.host_memory_bytes > 0) json["host_memory_bytes"] = p.host_memory_bytes;
   put_text(&json, "backend", p.backend);
@@ -86,6 +89,7 @@ Json sequence_json(const Record& r) {
       {"fx", r.camera.fx}, {"fy", r.camera.fy}, {"cx", r.camera.cx}, {"cy", r.camera.cy}};
   json["units_per_m"] = r.units_per_m;
   put_text(&json, "input_hash", r.input_hash);
+  put_text(&json, "ground_truth_hash", r.ground_truth_hash);
   return json;
 }
 
@@ -110,6 +114,13 @@ Json frames_json(const Record& r) {
           {"dropped_frames", json_of(counts.dropped)}};
 }
 
+/// What a stage or kernel took; statistics only where it ran at all.
+Json json_of(const FrameSeconds& seconds) {
+  Json json = {{"seconds_per_frame", seconds.per_frame}};
+  if (seconds.when_it_ran.count > 0) json["seconds"] = json_of_times(seconds.when_it_ran);
+  return json;
+}
+
 void put_share(Json* json, const std::optional<double>& share) {
   if (share) (*json)["share_of_computation"] = *share;
 }
@@ -125,18 +136,22 @@ Json start_up_json(const FrameTimes& init) {
   return {{"seconds", init.stage(Stage::init)}, {"kernels", kernels}};
 }
 
-void put_measured(const TimeFigures& figures, Json* json) {
+void put_measured(const TimeFigures& figures, Json* json, Reasons* absent) {
   (*json)["computation_s"] = json_of_times(figures.computation_s);
   (*json)["total_s"] = json_of_times(figures.total_s);
   Json stages = Json::object(), kernels = Json::object();
   for (const StageFigures& stage : figures.stages) {
-    Json one = {{"seconds", json_of_times(stage.seconds)}};
+    Json one = json_of(stage.seconds);
     put_share(&one, stage.share);
+    if (!one.contains("seconds")) {
+      explain(absent, fmt::format("time.stages.{}.seconds", name(stage.stage)),
+              "it ran in no measured frame");
+    }
     stages[std::string(name(stage.stage))] = one;
   }
   for (const KernelFigures& kernel : figures.kernels) {
-    Json one = {{"stage", std::string(name(info(kernel.kernel).stage))},
-                {"seconds", json_of_times(kernel.seconds)}};
+    Json one = {{"stage", std::string(name(info(kernel.kernel).stage))}};
+    one.update(json_of(kernel.seconds));
     put_share(&one, kernel.share);
     one["calls"] = kernel.calls;
     one["calls_per_frame"] = kernel.calls_per_frame;
@@ -164,7 +179,7 @@ Json time_json(const Record& r, Reasons* absent) {
   }
   json["start_up"] = start_up_json(r.init);
   if (figures.measured_frames > 0) {
-    put_measured(figures, &json);
+    put_measured(figures, &json, absent);
   } else {
     for (const char* key : {"computation_s", "total_s", "stages", "kernels"}) {
       explain(absent, fmt::format("time.{}", key), "no frame was processed after the warm-up");

@@ -39,11 +39,11 @@ void add_times(const Record& record, Collector* to) {
   to->add("time.total_s.mean", "s", times.total_s.mean, times.total_s.std);
   for (const StageFigures& stage : times.stages) {
     to->add(fmt::format("time.stages.{}.seconds_per_frame", name(stage.stage)), "s",
-            stage.seconds.mean, stage.seconds.std);
+            stage.seconds.per_frame, stage.seconds.when_it_ran.std);
   }
   for (const KernelFigures& kernel : times.kernels) {
     to->add(fmt::format("time.kernels.{}.seconds_per_frame", name(kernel.kernel)), "s",
-            kernel.seconds.mean, kernel.seconds.std);
+            kernel.seconds.per_frame, kernel.seconds.when_it_ran.std);
   }
 }
 

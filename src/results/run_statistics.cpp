@@ -26,10 +26,26 @@ Statistics over(const std::vector<const FrameTimes*>& frames, Figure figure) {
   return summarize(values);
 }
 
-std::optional<double> share_of(Stage stage, const Statistics& seconds,
+/// Of stage or kernel `i`, whose seconds and calls stand in these arrays.
+template <std::size_t N>
+FrameSeconds frame_seconds(const std::vector<const FrameTimes*>& frames, std::size_t i,
+                           std::array<double, N> FrameTimes::*seconds,
+                           std::array<int, N> FrameTimes::*calls) {
+  std::vector<double> values;
+  for (const FrameTimes* times : frames) {
+    if ((times->*calls)[i] > 0) values.push_back((times->*seconds)[i]);
+  }
+  FrameSeconds result;
+  result.when_it_ran = summarize(values);
+  result.per_frame =
+      std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(frames.size());
+  return result;
+}
+
+std::optional<double> share_of(Stage stage, const FrameSeconds& seconds,
                                const Statistics& computation) {
   if (!in_computation(stage) || !(computation.mean > 0)) return std::nullopt;
-  return seconds.mean / computation.mean;
+  return seconds.per_frame / computation.mean;
 }
 
 std::optional<KernelFigures> kernel_figures(const KernelInfo& kernel,
@@ -40,12 +56,12 @@ std::optional<KernelFigures> kernel_figures(const KernelInfo& kernel,
   figures.kernel = kernel.kernel;
   for (const FrameTimes* times : frames) figures.calls += times->kernel_calls[i];
   if (figures.calls == 0) return std::nullopt;
-  figures.seconds = over(frames, [i](const FrameTimes& t) { return t.kernel_s[i]; });
+  figures.seconds = frame_seconds(frames, i, &FrameTimes::kernel_s, &FrameTimes::kernel_calls);
   figures.share = share_of(kernel.stage, figures.seconds, computation);
   const auto calls = static_cast<double>(figures.calls);
   const auto count = static_cast<double>(frames.size());
   figures.calls_per_frame = calls / count;
-  figures.seconds_per_call = figures.seconds.mean * count / calls;
+  figures.seconds_per_call = figures.seconds.per_frame * count / calls;
   return figures;
 }
 
@@ -96,7 +112,8 @@ TimeFigures time_figures(const Record& record) {
   for (std::size_t i = 0; i < stage_count; ++i) {
     const auto stage = static_cast<Stage>(i);
     if (stage == Stage::init) continue;
-    const Statistics seconds = over(measured, [i](const FrameTimes& t) { return t.stage_s[i]; });
+    const FrameSeconds seconds =
+        frame_seconds(measured, i, &FrameTimes::stage_s, &FrameTimes::stage_calls);
     figures.stages.push_back({stage, seconds, share_of(stage, seconds, figures.computation_s)});
   }
   for (const KernelInfo& kernel : kernel_table()) {

@@ -14,17 +14,23 @@ namespace slambench {
 /// Why a figure is missing that nobody tried to measure.
 inline constexpr std::string_view not_metered = "not metered";
 
-/// Seconds a frame in one stage.
-struct StageFigures {
-  Stage stage = Stage::acquire;
-  Statistics seconds;
-  std::optional<double> share;  ///< mean / mean computation; none for a stage outside computation
+/// Seconds a frame of what need not run in every frame. Where it did not run it took no time: that
+/// belongs into what a frame costs on average, but not into what is usual when it runs.
+struct FrameSeconds {
+  double per_frame = 0;    ///< the sum over all measured frames / their number
+  Statistics when_it_ran;  ///< over the frames in which it ran, `count` of them; maybe none
 };
 
-/// Seconds a frame in one kernel: all its calls in a frame together, 0 in a frame without a call.
+struct StageFigures {
+  Stage stage = Stage::acquire;
+  FrameSeconds seconds;
+  std::optional<double> share;  ///< per frame / mean computation; none outside computation
+};
+
+/// All calls in a frame together.
 struct KernelFigures {
   Kernel kernel = Kernel::acquire;
-  Statistics seconds;
+  FrameSeconds seconds;
   std::optional<double> share;  ///< as of a stage
   long calls = 0;               ///< in all measured frames
   double calls_per_frame = 0;

@@ -33,6 +33,7 @@ void identify(const Record& r, const FrameCounts& counts, Page* page) {
              Look::heading);
   std::string device = r.provenance.device;
   if (r.provenance.threads > 0) device += fmt::format(", threads: {}", r.provenance.threads);
+  if (!r.provenance.instruction_set.empty()) device += ", " + r.provenance.instruction_set;
   page->wrapped("device", device);
   const std::string preset = parameter(r, "preset");
   if (!preset.empty() && !r.map.empty()) {
@@ -53,33 +54,46 @@ void identify(const Record& r, const FrameCounts& counts, Page* page) {
 
 void list_kernels(const TimeFigures& figures, Page* page) {
   page->gap();
-  page->line(fmt::format("{:<18}{:>13}{:>10}{:>14}{:>13}", "kernel", "ms per frame", "share",
-                         "calls/frame", "ms per call"),
+  page->line(fmt::format("{:<18}{:>13}{:>10}{:>14}{:>13}", "kernel", "ms a frame", "share",
+                         "calls/frame", "ms a call"),
              Look::heading);
   for (const KernelFigures& k : figures.kernels) {
     page->line(fmt::format("{:<18}{:>13.3f}{:>10}{:>14.2f}{:>13.3f}", name(k.kernel),
-                           k.seconds.mean * ms_per_s, share_text(k.share), k.calls_per_frame,
+                           k.seconds.per_frame * ms_per_s, share_text(k.share), k.calls_per_frame,
                            k.seconds_per_call * ms_per_s));
   }
 }
 
-std::string stage_row(std::string_view what, const Statistics& s, const std::string& share) {
-  return fmt::format("{:<14}{:>11.3f}{:>11.3f}{:>11.3f}{:>11.3f}{:>11.3f}{:>11}", what,
-                     s.mean * ms_per_s, s.median * ms_per_s, s.p95 * ms_per_s, s.p99 * ms_per_s,
-                     s.max * ms_per_s, share);
+/// Three decimals as long as they fit.
+std::string ms_text(double seconds) {
+  const double ms = seconds * ms_per_s;
+  return ms < 1e4 ? fmt::format("{:.3f}", ms) : fmt::format("{:.1f}", ms);
 }
+
+std::string stage_row(std::string_view what, const FrameSeconds& seconds,
+                      const std::string& share) {
+  const Statistics& s = seconds.when_it_ran;
+  std::string row = fmt::format("{:<13}{:>11}{:>8}", what, ms_text(seconds.per_frame), s.count);
+  for (const double figure : {s.median, s.p95, s.p99, s.max}) {
+    row += fmt::format("{:>10}", s.count > 0 ? ms_text(figure) : "-");
+  }
+  return row + fmt::format("{:>8}", share);
+}
+
+/// What every measured frame has.
+FrameSeconds in_every_frame(const Statistics& seconds) { return {seconds.mean, seconds}; }
 
 void list_stages(const TimeFigures& figures, Page* page) {
   page->gap();
-  page->line(fmt::format("{:<14}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}", "stage", "mean ms", "median",
-                         "p95", "p99", "max", "share"),
+  page->line(fmt::format("{:<13}{:>11}{:>8}{:>10}{:>10}{:>10}{:>10}{:>8}", "stage", "ms a frame",
+                         "frames", "median", "p95", "p99", "max", "share"),
              Look::heading);
   for (const StageFigures& stage : figures.stages) {
     page->line(stage_row(name(stage.stage), stage.seconds, share_text(stage.share)));
   }
   const auto whole = figures.computation_s.mean > 0 ? std::optional(1.0) : std::nullopt;
-  page->line(stage_row("computation", figures.computation_s, share_text(whole)));
-  page->line(stage_row("total", figures.total_s, "-"));
+  page->line(stage_row("computation", in_every_frame(figures.computation_s), share_text(whole)));
+  page->line(stage_row("total", in_every_frame(figures.total_s), "-"));
 }
 
 void tell_speed(const Record& r, const TimeFigures& figures, Page* page) {
@@ -96,7 +110,18 @@ void tell_speed(const Record& r, const TimeFigures& figures, Page* page) {
   if (!figures.warmup.empty()) {
     measured += fmt::format("; left out as warm-up: {}", frame_list_text(figures.warmup));
   }
+  const bool partly =
+      std::any_of(figures.stages.begin(), figures.stages.end(), [&](const StageFigures& stage) {
+        return stage.seconds.when_it_ran.count < figures.measured_frames;
+      });
+  if (partly) measured += "; median to max are of the frames in which a stage ran";
   page->wrapped("measured", measured);
+  const Provenance& p = r.provenance;
+  if (p.load_average_start && p.load_average_end) {
+    page->wrapped("load",
+                  fmt::format("{:.2f} before the frames, {:.2f} after; usable processors: {}",
+                              *p.load_average_start, *p.load_average_end, p.cores));
+  }
 }
 
 /// "4 lost (0-3, the start)"

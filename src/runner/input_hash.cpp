@@ -13,6 +13,14 @@ namespace slambench {
 
 static_assert(std::endian::native == std::endian::little, "the hash is over memory as it lies");
 
+namespace {
+
+std::string text_of(XXH128_hash_t hash) {
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+}  // namespace
+
 struct InputHash::State {
   State() : xxh(XXH3_createState()) {
     if (xxh == nullptr) throw std::bad_alloc();
@@ -34,9 +42,10 @@ void InputHash::add(const Frame& frame) {
   XXH3_128bits_update(state_->xxh, frame.depth.data(), frame.depth.bytes());
 }
 
-std::string InputHash::text() const {
-  const XXH128_hash_t hash = XXH3_128bits_digest(state_->xxh);
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+std::string InputHash::text() const { return text_of(XXH3_128bits_digest(state_->xxh)); }
+
+std::string hash_text(std::string_view bytes) {
+  return text_of(XXH3_128bits(bytes.data(), bytes.size()));
 }
 
 }  // namespace slambench

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "core/frame.h"
 
@@ -23,5 +24,8 @@ class InputHash {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// The same hash over bytes.
+std::string hash_text(std::string_view bytes);
 
 }  // namespace slambench

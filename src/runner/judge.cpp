@@ -155,54 +155,43 @@ std::vector<Eigen::Vector3d> positions_before_frames(const Record& record) {
   return rows;
 }
 
-/// The rows of the ground truth as the published script pairs them with those of the log.
-Trajectory rows_for_frames(const SequenceInfo& sequence, const Record& record) {
-  const Trajectory truth = sorted_by_time(sequence.ground_truth);
-  std::vector<std::size_t> matched;
-  bool one_a_frame = true;
-  int last_frame = 0;
-  for (const FrameRecord& frame : record.frames) {
-    const auto row = nearest_pose(truth, frame.time_s, default_limit_s(rule));
-    if (!row) continue;
-    if (!matched.empty()) {
-      one_a_frame &= *row - matched.back() == static_cast<std::size_t>(frame.index - last_frame);
-    }
-    matched.push_back(*row);
-    last_frame = frame.index;
+/// Why pairing by row means nothing for this ground truth; empty where it does. Frames without a
+/// row are no reason: the script moves up then, and so do its figures.
+std::string rows_without_frames(const Trajectory& truth, const Record& record) {
+  Trajectory frames;
+  for (const FrameRecord& frame : record.frames) frames.push_back({frame.time_s, Pose::Identity()});
+  frames = sorted_by_time(std::move(frames));
+  const double limit_s = default_limit_s(rule);
+  for (const StampedPose& row : truth) {
+    if (row.time_s > frames.back().time_s + limit_s) continue;  // of frames that were not run
+    if (nearest_pose(frames, row.time_s, limit_s)) continue;
+    return fmt::format(
+        "the ground truth has rows of no frame (time stamp {}), and the published convention pairs "
+        "by row",
+        row.time_s);
   }
-  Trajectory rows;
-  if (matched.empty()) return rows;
-  if (one_a_frame) {
-    rows.assign(truth.begin() + static_cast<std::ptrdiff_t>(matched.front()), truth.end());
-  } else {
-    for (const std::size_t row : matched) rows.push_back(truth[row]);
-  }
-  return rows;
+  return "";
 }
 
-void judge_as_slambench1(const SequenceInfo& sequence, Record* record) {
-  std::string& absent = record->absent["accuracy.slambench1_ate_m"];
-  const Trajectory truth = rows_for_frames(sequence, *record);
-  if (truth.empty()) {
-    absent = "no pose of the ground truth has the time stamp of a frame";
-    return;
-  }
+/// Why there is no figure of the published convention; empty when there is.
+std::string judge_as_slambench1(const SequenceInfo& sequence, Record* record) {
+  const Trajectory& truth = sequence.ground_truth;
   if (Eigen::AngleAxisd(truth.front().T_world_camera.linear()).angle() > own_axes_tolerance) {
-    absent =
-        "the ground truth does not start in the camera's own axes, and the published convention "
-        "only shifts";
-    return;
+    return "the ground truth does not start in the camera's own axes, and the published convention "
+           "only shifts";
   }
   if (!std::all_of(record->frames.begin(), record->frames.end(),
                    [](const auto& frame) { return frame.dropped || finite(frame); })) {
-    absent = "a pose is not finite";
-    return;
+    return "a pose is not finite";
   }
+  if (auto reason = rows_without_frames(truth, *record); !reason.empty()) return reason;
   std::vector<Eigen::Vector3d> rows;
   for (const auto& pose : truth) rows.push_back(pose.T_world_camera.translation());
-  record->slambench1_ate_m =
+  const Statistics errors_m =
       slambench1_ate(positions_before_frames(*record), rows, sequence.own_from_camera);
-  record->absent.erase("accuracy.slambench1_ate_m");
+  if (errors_m.count < 2) return "the first row, which has no error by definition, is the only one";
+  record->slambench1_ate_m = errors_m;
+  return "";
 }
 
 }  // namespace
@@ -226,7 +215,8 @@ void judge(const SequenceInfo& sequence, Record* record) {
   record->over_processed = judged.figures;
   set_frame_errors(judged, record);
   record->over_all = judge_trajectory(all, sequence, "accuracy.over_all", record).figures;
-  judge_as_slambench1(sequence, record);
+  const std::string no_figure = judge_as_slambench1(sequence, record);
+  if (!no_figure.empty()) record->absent["accuracy.slambench1_ate_m"] = no_figure;
 }
 
 }  // namespace slambench

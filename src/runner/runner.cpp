@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "io/trajectory_file.h"
 #include "metrics/trajectory_metrics.h"
 #include "runner/input_hash.h"
 
@@ -69,6 +70,10 @@ void describe_sequence(const SequenceInfo& info, Record* record) {
   record->layout = info.layout;
   record->path = info.path;
   record->ground_truth_file = info.ground_truth_file;
+  record->ground_truth = info.ground_truth;
+  if (!info.ground_truth.empty()) {
+    record->ground_truth_hash = hash_text(trajectory_text(info.ground_truth));
+  }
   record->axes = info.axes;
   record->sequence_frames = info.frame_count;
   record->input_size = info.depth_size;

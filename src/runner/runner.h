@@ -65,10 +65,11 @@ void run_frames(Source& source, System& system, FrameTimer& timer, const Clock& 
 /// - over_all: every frame; dropped ones, and those whose pose is not finite, hold the last pose.
 /// - the relative error is over one second of the sequence at its nominal rate, also where the
 ///   stamps count frames (ICL-NUIM).
-/// - slambench1_ate_m: see slambench1_ate(). A dropped frame repeats the row before it. The ground
-///   truth's rows count from the first that belongs to a frame, where each next row belongs to the
-///   next frame; else they are those that belong to the frames. Absent when the ground truth does
-///   not start in the camera's own axes, as the published script only shifts.
+/// - slambench1_ate_m: see slambench1_ate(). As the published script does it, a dropped frame
+/// repeats
+///   the row before it, and the ground truth's rows count from its first one, whatever frames they
+///   belong to. Absent when rows belong to no frame, so that pairing by row means nothing, and when
+///   the ground truth does not start in the camera's own axes, as the script only shifts.
 void judge(const SequenceInfo& sequence, Record* record);
 
 }  // namespace slambench

@@ -6,18 +6,14 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
 namespace slambench {
 
-/// One thread a core of this machine.
-inline int all_threads() {
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
-/// Calls body(i) once for each i in [0, count), in any order, from `threads` threads at once. The
-/// first exception ends the loop early and is thrown to the caller.
+/// Calls body(i) once for each i in [0, count), in any order, from `threads` threads at once, or as
+/// many as the system grants. The first exception ends the loop early and is thrown to the caller.
 template <class Body>
 void parallel_for(int count, int threads, const Body& body) {
   std::atomic<int> next = 0;
@@ -34,7 +30,11 @@ void parallel_for(int count, int threads, const Body& body) {
   };
   {
     std::vector<std::jthread> helpers;
-    for (int i = 1; i < std::min(threads, count); ++i) helpers.emplace_back(work);
+    try {
+      for (int i = 1; i < std::min(threads, count); ++i) helpers.emplace_back(work);
+    } catch (const std::system_error&) {
+      // No more of them: those that there are do all the work.
+    }
     work();
   }
   if (failure) std::rethrow_exception(failure);

@@ -17,17 +17,10 @@ Float3 to_float3(const std::array<double, 3>& v) {
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
-bool supports_all(const Backend& backend, MapKind map) {
-  return std::ranges::all_of(kernel_table(), [&](const KernelInfo& row) {
-    const bool optional = row.kernel == Kernel::acquire || row.kernel == Kernel::align;
-    return optional || backend.supports(row.kernel, map);
-  });
-}
-
 /// `auto` is bricks where the backend has them.
 MapKind map_kind(const std::string& word, const Backend& backend) {
   if (word == "auto") {
-    return supports_all(backend, MapKind::bricks) ? MapKind::bricks : MapKind::grid;
+    return backend.missing_kernel(MapKind::bricks) ? MapKind::grid : MapKind::bricks;
   }
   return map_from_name(word);
 }
@@ -66,12 +59,9 @@ Volume make_volume(Backend& backend, MapKind map, const KinectFusionParameters& 
 }
 
 void require_kernels(const Backend& backend, MapKind map) {
-  for (const KernelInfo& row : kernel_table()) {
-    const bool optional = row.kernel == Kernel::acquire || row.kernel == Kernel::align;
-    if (!optional && !backend.supports(row.kernel, map)) {
-      throw UnavailableError(
-          fmt::format("backend {}: no kernel {} for map {}", backend.name(), row.name, name(map)));
-    }
+  if (const auto missing = backend.missing_kernel(map)) {
+    throw UnavailableError(fmt::format("backend {}: no kernel {} for map {}", backend.name(),
+                                       name(*missing), name(map)));
   }
 }
 
@@ -217,6 +207,13 @@ RaycastParameters KinectFusion::view(double far_m) const {
           static_cast<float>(p_.raycast_slow_below)};
 }
 
+ShadeParameters KinectFusion::shading() const {
+  const Float3 light_m = to_float3(p_.light_m);
+  const bool with_camera = p_.light_frame == "camera";
+  return {with_camera ? to_rigid3f(T_volume_camera_).apply(light_m) : light_m,
+          static_cast<float>(p_.ambient)};
+}
+
 void KinectFusion::render() {
   const StageScope scope(observer_, Stage::render);
   backend_.render_depth(depth_picture_, depth_m_, static_cast<float>(p_.near_m),
@@ -224,7 +221,7 @@ void KinectFusion::render() {
   backend_.render_track(track_picture_, rows_[0]);
   if ((processed_ - 1) % p_.rendering_rate == 0) {
     backend_.render_volume(volume_picture_, volume_, view(p_.far_m * p_.render_far_factor),
-                           {to_float3(p_.light_m), static_cast<float>(p_.ambient)});
+                           shading());
   }
   backend_.finish();
 }

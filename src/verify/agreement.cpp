@@ -89,9 +89,7 @@ const Tolerance& tolerance_of(const Check& check) {
 bool supports(const Backend& backend, const Check& check, MapKind map) {
   if (check.kernel) return backend.supports(*check.kernel, map);
   if (check.name == "memory") return backend.supports(Kernel::init_volume, map);
-  return std::all_of(table().begin(), table().end(), [&](const Check& other) {
-    return !other.kernel || other.kernel == Kernel::align || backend.supports(*other.kernel, map);
-  });
+  return !backend.missing_kernel(map);  // the pipeline
 }
 
 Candidate make_candidate(std::string_view backend, const BackendOptions& options) {

@@ -32,18 +32,13 @@ constexpr VolumeShape volume_shapes[] = {{{64, 64, 64}, {4.0f, 4.0f, 4.0f}},
                                          {{8, 8, 8}, {4.0f, 4.0f, 4.0f}},
                                          {{9, 1, 70}, {2.5f, 4.0f, 3.7f}}};
 
-std::size_t count(Int3 n) {
-  return static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) *
-         static_cast<std::size_t>(n.z);
-}
-
 std::string voxel_place(Int3 n, std::size_t index) {
   const auto x = static_cast<std::size_t>(n.x), y = static_cast<std::size_t>(n.y);
   return fmt::format("voxel ({}, {}, {})", index % x, index / x % y, index / (x * y));
 }
 
 Voxels random_voxels(Int3 resolution, Random* random) {
-  Voxels voxels(count(resolution));
+  Voxels voxels(voxel_count(resolution));
   for (Voxel& voxel : voxels) {
     if (random->chance(0.3)) continue;  // fresh
     voxel.tsdf = static_cast<std::int16_t>(random->index(2 * 32766 + 1) - 32766);
@@ -59,7 +54,7 @@ Voxels ball_voxels(const VolumeShape& shape) {
   const Float3 voxel_m = voxel_size(n, shape.size_m);
   const Float3 center = shape.size_m * 0.5f;
   Voxels voxels;
-  voxels.reserve(count(n));
+  voxels.reserve(voxel_count(n));
   for (int z = 0; z < n.z; ++z) {
     for (int y = 0; y < n.y; ++y) {
       for (int x = 0; x < n.x; ++x) {

@@ -29,6 +29,12 @@ TEST_F(Contract, SerialOffersEveryKernelButTheFusedOne) {
   EXPECT_EQ(name(MapKind::grid), "grid");
 }
 
+TEST_F(Contract, SerialChoosesNoInstructionSetAndLacksNothing) {
+  EXPECT_EQ(backend_.instruction_set(), "");
+  EXPECT_EQ(backend_.missing_kernel(MapKind::grid), std::nullopt);
+  EXPECT_EQ(backend_.missing_kernel(MapKind::bricks), std::nullopt);
+}
+
 TEST_F(Contract, ImagesComeBackAsWritten) {
   const Image<float> image = testing::random_depth_m({7, 3}, 1);
   EXPECT_EQ(testing::downloaded(backend_, testing::uploaded(backend_, image)), image);

@@ -189,6 +189,7 @@ TEST(InstructionSets, AllGiveTheSameBits) {
       OpenmpBackend openmp(2);
       const Volume volume = fused(openmp, map.map, fusion);
       EXPECT_EQ(voxels_of(openmp, volume), expected) << hwy::TargetName(target);
+      EXPECT_EQ(openmp.instruction_set(), hwy::TargetName(target));
       EXPECT_EQ(raycast(openmp, volume, parameters), surface) << hwy::TargetName(target);
     }
   }

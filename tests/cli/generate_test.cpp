@@ -46,7 +46,7 @@ class GenerateTest : public ::testing::Test {
   bool has_partial_folder() const {
     const fs::directory_iterator entries(program_.folder().path());
     return std::any_of(begin(entries), end(entries), [](const fs::directory_entry& entry) {
-      return entry.path().extension() == ".partial";
+      return entry.path().filename().string().ends_with(".slambench-partial");
     });
   }
 
@@ -63,11 +63,16 @@ TEST_F(GenerateTest, WritesAnOwnSceneThatCanBeRead) {
   EXPECT_THAT(info.out, HasSubstr("3 of 3 frames have a pose"));
 }
 
-TEST_F(GenerateTest, WritesTheLivingRoomThatCanBeRunWithItsConfiguration) {
+TEST_F(GenerateTest, WritesTheLivingRoomWithItsSettings) {
   ASSERT_EQ(run({"generate", "out", "--frames=6", "--layout=raw", "--quiet"}).status, 0);
-  const auto outcome = run({"run", "out/sequence.raw", "--config", "out/slambench.toml",
-                            "--volume-resolution=64", "--quiet", "--out=results"});
+  const auto outcome = run({"run", "out/sequence.raw", "--volume-resolution=64", "--out=results"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("out/slambench.toml sets compute-size-ratio, volume-size, "));
+  EXPECT_THAT(outcome.out, HasSubstr("in 4.8x4.8x4.8 m"));
+  EXPECT_EQ(run({"run", "out/sequence.raw", "--config", "out/slambench.toml",
+                 "--volume-resolution=64", "--quiet", "--out=again"})
+                .status,
+            0);
 }
 
 TEST_F(GenerateTest, RejectsWhatDoesNotFitTogether) {
@@ -85,6 +90,18 @@ TEST_F(GenerateTest, RejectsWhatDoesNotFitTogether) {
   program_.folder().write("away.txt", "0 0 0 90 0 0 0 1\n");
   expect_error({"generate", "out", "--scene", "wall.obj", "--trajectory", "away.txt"}, 3,
                "none of the frames");
+}
+
+TEST_F(GenerateTest, FillsAFolderThatIsThere) {
+  fs::create_directory(program_.folder().path("out"));
+  const std::vector<std::string> arguments = {"generate", "out",          "--scene",
+                                              "wall.obj", "--trajectory", "way.txt"};
+  const auto outcome = run(arguments);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(fs::exists(program_.folder().path("out/slambench.toml")));
+  const auto again = run(arguments);
+  EXPECT_EQ(again.status, 2);
+  EXPECT_THAT(again.err, HasSubstr("say --force to replace the generated sequence"));
 }
 
 TEST_F(GenerateTest, WarnsOfAFrameThatSeesNothing) {

@@ -4,9 +4,11 @@
 // `slambench run` as its user meets it: arguments in, files, text and status out.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -129,6 +131,63 @@ TEST_F(RunTest, TheCommandLineBeatsTheFileAndTheFileThePreset) {
   expect("near", "0.4", "default");
 }
 
+TEST_F(RunTest, TakesTheSettingsThatASequenceBrings) {
+  const auto run_here = [&](const Arguments& more) {
+    return run(Arguments{"run", "own/small.raw", "-v", "32", "--out", "out", "--force"} + more);
+  };
+  const auto expect = [&](const char* name, const char* value, const char* set_by) {
+    const Json made = record("out");
+    EXPECT_EQ(parameter(made, name).at("set_by"), set_by) << name;
+    EXPECT_EQ(parameter(made, name).at("value"), value) << name;
+  };
+  write("own/small.raw", testing::small_raw(8));
+  write("own/slambench.toml",
+        "preset = \"slambench1\"\n[source]\ncamera = [60, 60, 31.5, 23.5]\n"
+        "[kinectfusion]\nvolume-size = 3\ninit-pose = [0.5, 0.5, 0.1]\nmap = \"grid\"\n"
+        "[output]\nquiet = true\n[run]\nframes = 1\n");
+  const testing::Outcome outcome = run_here({"-c", "1"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("note        own/slambench.toml sets camera, volume-size"));
+  expect("volume-size", "3,3,3", "sequence file own/slambench.toml");
+  expect("camera", "60,60,31.5,23.5", "sequence file own/slambench.toml");
+  expect("compute-size-ratio", "1", "command line");
+  expect("preset", "fast", "default");
+  expect("map", "auto", "preset fast");
+  expect("frames", "0", "default");
+  EXPECT_EQ(record("out").at("sequence").at("camera").at("fx"), 60);
+
+  write("a.toml", "[kinectfusion]\nvolume-size = 3.5\n");
+  ASSERT_EQ(run_here({"--config", "a.toml", "-p", "0.5,0.5,0.2"}).status, 0);
+  expect("volume-size", "3.5,3.5,3.5", "file a.toml");
+  expect("init-pose", "0.5,0.5,0.2", "command line");
+  expect("compute-size-ratio", "2", "sequence");
+
+  const testing::Outcome info = run({"info", "own/small.raw"});
+  EXPECT_THAT(info.out, AllOf(HasSubstr("--volume-size=3,3,3"), HasSubstr("fx 60,"),
+                              HasSubstr("settings      own/slambench.toml")));
+  write("own/slambench.toml", "[kinectfusion]\nvolume-sise = 3\n");
+  fs::remove_all(path("out"));
+  expect_error({"run", "own/small.raw", "--out", "out"}, 3,
+               HasSubstr("own/slambench.toml:2: unknown key 'volume-sise'"));
+}
+
+TEST_F(RunTest, HelpTellsTheDefaultsThatHold) {
+  const std::string help = run({"run", "--help"}).out;
+  std::string joined;  // without line breaks and indents
+  std::istringstream words(help);
+  for (std::string word; words >> word;) joined += word + " ";
+  EXPECT_THAT(joined, HasSubstr("default 2,2,2 unless the sequence has its own"));
+  EXPECT_THAT(joined, HasSubstr("default auto, by preset fast"));
+  EXPECT_THAT(joined, HasSubstr("default true, by preset fast"));
+  EXPECT_THAT(joined, HasSubstr("default 0.1)"));
+  EXPECT_THAT(joined, Not(HasSubstr("default serial")));
+  ASSERT_EQ(run(small()).status, 0);
+  const Json made = record("out");
+  EXPECT_THAT(joined,
+              HasSubstr("default " + parameter(made, "backend").at("value").get<std::string>() +
+                        ", by preset fast"));
+}
+
 TEST_F(RunTest, ThePublishedOptionsKeepTheirLetters) {
   const testing::Outcome outcome = run({"run",
                                         "-i",
@@ -200,7 +259,7 @@ TEST_F(RunTest, MakesANewFolderUnderResults) {
 }
 
 TEST_F(RunTest, AnInterruptKeepsTheResultsSoFar) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const pid_t child = program_.start(small({"--real-time", "-f", "1"}));
     // The partial folder is there once signals are caught.
     while (!fs::exists(path(".out.slambench-partial")) && ::kill(child, 0) == 0) {
@@ -215,6 +274,73 @@ TEST_F(RunTest, AnInterruptKeepsTheResultsSoFar) {
     EXPECT_EQ(made.at("complete"), false);
     fs::remove_all(path("out"));
   }
+}
+
+TEST_F(RunTest, AnIgnoredSignalStaysIgnored) {
+  const auto before = std::signal(SIGHUP, SIG_IGN);  // as nohup leaves it
+  const pid_t child = program_.start(small({"--real-time", "-f", "8"}));
+  std::signal(SIGHUP, before);
+  while (!fs::exists(path(".out.slambench-partial")) && ::kill(child, 0) == 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  ::kill(child, SIGHUP);
+  const testing::Outcome outcome = program_.wait(child);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(record("out").at("complete"), true);
+}
+
+TEST_F(RunTest, RefusedThreadsAreUnavailable) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizer needs the address space that this test takes away";
+#endif
+  // Of stacks this large an address space holds two.
+  program_.set_limit(RLIMIT_STACK, rlim_t{50} << 40);
+  expect_error(
+      small({"--backend", "openmp", "--threads", "8"}), 4,
+      AllOf(HasSubstr("threads: the system grants "), HasSubstr(" of 8"), HasSubstr("--threads")));
+  EXPECT_EQ(run(small({"--backend", "openmp", "--threads", "1"})).status, 0);
+}
+
+TEST_F(RunTest, FilesAmongTheResultsAreRefused) {
+  expect_error(small({"-d", "out/volume"}), 2,
+               HasSubstr("--dump-volume: out/volume lies in the results folder out"));
+  expect_error(small({"-o", "out/record.json"}), 2,
+               HasSubstr("--log-file: out/record.json lies in the results folder out"));
+  expect_error(small({"-o", path("out/../out/log")}), 2, HasSubstr("lies in the results folder"));
+  expect_error(small({"-o", "same", "-d", "same"}), 2, HasSubstr("both are same"));
+  ASSERT_EQ(run(small({"-o", "outside"})).status, 0);
+  EXPECT_EQ(run(small({"--force", "-o", "out/log"})).status, 2);
+  EXPECT_FALSE(fs::exists(path("out/log")));
+}
+
+TEST_F(RunTest, APipeThatNobodyWritesToIsBadInput) {
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  for (const char* option : {"--config", "--ground-truth"}) {
+    expect_error(small({option, "pipe"}), 3, HasSubstr("pipe: cannot read: it is a pipe"));
+  }
+  write("tum/depth.txt", "0.0 depth/0.png\n");
+  fs::create_directory(path("tum/depth"));
+  ASSERT_EQ(::mkfifo(path("tum/depth/0.png").c_str(), 0600), 0);
+  expect_error({"run", "tum", "--out", "out"}, 3, HasSubstr("0.png: cannot read: it is a pipe"));
+}
+
+TEST_F(RunTest, LeavesTheGroundTruthThatItWasJudgedBy) {
+  const std::string truth = "# time tx ty tz qx qy qz qw\n1 0.5 0 0 0 0 0 1\n2 0.5 0 0 0 0 0 1\n";
+  write("truth.txt", truth);
+  ASSERT_EQ(run(small({"--ground-truth", "truth.txt"})).status, 0);
+  EXPECT_EQ(file("out/groundtruth.tum"), truth);
+  EXPECT_EQ(record("out").at("sequence").at("ground_truth_hash").get<std::string>().size(), 32U);
+  ASSERT_EQ(run(small({"--force"})).status, 0);
+  EXPECT_FALSE(fs::exists(path("out/groundtruth.tum")));
+}
+
+TEST_F(RunTest, SaysWhatTheMachineWasLike) {
+  ASSERT_EQ(run(small({"--backend", "openmp"})).status, 0);
+  const Json provenance = record("out").at("provenance");
+  EXPECT_GE(provenance.at("load_average_start").get<double>(), 0);
+  EXPECT_GE(provenance.at("load_average_end").get<double>(), 0);
+  EXPECT_FALSE(provenance.at("instruction_set").get<std::string>().empty());
 }
 
 TEST_F(RunTest, WrongWordsAreUsageErrors) {

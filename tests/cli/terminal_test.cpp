@@ -4,8 +4,12 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <sstream>
+#include <thread>
 
 #include "cli/small_recording.h"
 #include "slambench/help.h"
@@ -72,6 +76,31 @@ TEST_F(TerminalTest, ShowsProgressAndRemovesIt) {
   const std::string text = shown({});
   EXPECT_THAT(text, AllOf(HasSubstr("small ["), HasSubstr("8/8 frames")));
   EXPECT_TRUE(text.ends_with("\r\033[K")) << "the line is cleared at the end";
+}
+
+TEST_F(TerminalTest, TheSecondInterruptEndsAtOnceAndTheFirstSaysSo) {
+  std::vector<std::string> arguments = testing::small_run();
+  // A second or more a frame.
+  for (const char* more : {"--backend", "serial", "--map", "grid", "-v", "384"}) {
+    arguments.emplace_back(more);
+  }
+  const pid_t child = program_.start(arguments);
+  const auto wait_for = [&](const std::string& words) {
+    std::string text;
+    for (int i = 0; i < 6000 && text.find(words) == std::string::npos; ++i) {
+      char part[4096];
+      const ssize_t count = ::read(terminal_, part, sizeof part);
+      if (count > 0) text.append(part, static_cast<std::size_t>(count));
+      if (count <= 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return text;
+  };
+  wait_for("/8 frames");
+  ASSERT_EQ(::kill(child, SIGINT), 0);
+  EXPECT_THAT(wait_for("without results\r\n"), HasSubstr("interrupt again to end at once"));
+  ASSERT_EQ(::kill(child, SIGINT), 0);
+  EXPECT_EQ(program_.wait(child).status, 128 + SIGINT);
+  EXPECT_FALSE(std::filesystem::exists(program_.folder().path("out")));
 }
 
 TEST_F(TerminalTest, ShowsNothingWhenNotWanted) {

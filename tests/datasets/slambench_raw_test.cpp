@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <filesystem>
+
 #include "core/error.h"
 #include "datasets/sample_images.h"
 #include "support/temporary_folder.h"
@@ -150,6 +152,20 @@ TEST(SlambenchRaw, RejectsAFrameOfAnotherSizeFarFromBothEndsWhenItIsRead) {
   EXPECT_EQ(message_of<InputError>([&] { source->read(50, frame); }),
             folder.path("s.raw") +
                 ": frame 50 at byte 3800: found size 5x3, expected 4x3 as in the first frame");
+}
+
+TEST(SlambenchRaw, ThatIsShortenedWhileItIsReadIsBadInput) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("s.raw", raw_file(100, true));
+  const auto source = open_source(path, {});
+  Frame frame;
+  source->read(99, frame);
+  std::filesystem::resize_file(path, 50 * full_bytes + 20);
+  EXPECT_NO_THROW(source->read(49, frame));
+  for (const int i : {50, 51, 99}) {
+    EXPECT_EQ(message_of<InputError>([&] { source->read(i, frame); }),
+              path + ": cannot read: it has 3820 bytes, and had 7600 when it was opened");
+  }
 }
 
 TEST(SlambenchRaw, RejectsGarbage) {

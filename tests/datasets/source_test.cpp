@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "datasets/living_room.h"
 #include "datasets/sample_images.h"
 #include "io/png.h"
 #include "support/temporary_folder.h"
@@ -167,6 +168,34 @@ TEST(OpenSource, SuggestsNoRatioForOddSizes) {
   for (const auto& [name, value] : suggested) {
     EXPECT_NE(name, "compute-size-ratio");
   }
+}
+
+TEST(OpenSource, SuggestsWhatTheHelpTells) {
+  const TemporaryFolder folder;
+  std::vector<std::string_view> names;
+  const auto source = open_source(write_sequence(folder), {});
+  for (const auto& [name, value] : source->info().suggested) names.push_back(name);
+  EXPECT_THAT(names, ::testing::ElementsAreArray(suggested_parameters));
+  for (const auto& [name, value] : living_room_settings(Pose::Identity())) {
+    EXPECT_THAT(suggested_parameters, ::testing::Contains(name));
+  }
+}
+
+TEST(SequenceSettings, LieInTheFolderOrBesideTheFile) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(sequence_settings_file(folder.path()), "");
+  const std::string file = folder.write("slambench.toml", "");
+  EXPECT_EQ(sequence_settings_file(folder.path()), file);
+  EXPECT_EQ(sequence_settings_file(folder.path("")), file) << "with a slash at the end";
+  EXPECT_EQ(sequence_settings_file(folder.path("sequence.raw")), file);
+  EXPECT_EQ(sequence_settings_file(""), "");
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  folder.write("living-room/slambench.toml", "");
+  EXPECT_EQ(sequence_settings_file("living-room/2"), "") << "that is built in";
+  EXPECT_EQ(sequence_settings_file("living-room"), "");
+  EXPECT_EQ(sequence_settings_file("sequence.raw"), "slambench.toml");
+  std::filesystem::current_path(before);
 }
 
 TEST(OpenSource, NamesACurrentFolder) {

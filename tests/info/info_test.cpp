@@ -69,7 +69,8 @@ TEST_F(InfoTest, PrintsAPageOf80Columns) {
            "ground truth  kt1/livingRoom1.gt.freiburg\n",
            "              2 poses, stamps 1 to 2, path of 5.000 m\n",
            "              2 of 3 frames have a pose\n",
-           "suggested     --compute-size-ratio=2 --volume-size=5 --init-pose=0.485,0.5,0.55\n",
+           "suggested     --compute-size-ratio=2 --volume-size=5,5,5\n",
+           "              --init-pose=0.485,0.5,0.55\n",
            "notes         no depth.txt and no associations.txt: the images are read by\n",
        }) {
     EXPECT_THAT(outcome.output, HasSubstr(line));
@@ -92,7 +93,24 @@ TEST_F(InfoTest, TakesWhatTheUserSaysOfTheSource) {
   EXPECT_EQ(json.at("depth_units_per_m"), 1000);
   EXPECT_EQ(json.at("ground_truth").at("file"), "poses.txt");
   EXPECT_EQ(json.at("ground_truth").at("frames_with_pose"), 1);
-  EXPECT_EQ(json.at("suggested").at("volume-size"), "6");
+  EXPECT_EQ(json.at("suggested").at("volume-size"), "6,6,6");
+  EXPECT_TRUE(json.at("settings_file").is_null());
+}
+
+TEST_F(InfoTest, TakesTheSettingsThatTheSequenceBrings) {
+  folder_.write("kt1/slambench.toml",
+                "[source]\ndepth-scale = 1000\n[kinectfusion]\nvolume-size = 4\nmu = 0.2\n"
+                "[output]\nimages = 3\n");
+  const std::string page = info("kt1").output;
+  EXPECT_THAT(page, HasSubstr("8x6, 1000 units per metre\n"));
+  EXPECT_THAT(page, HasSubstr("--volume-size=4,4,4"));
+  EXPECT_THAT(page, HasSubstr("--init-pose=0.485,0.5,0.55"));
+  EXPECT_THAT(page, HasSubstr("settings      kt1/slambench.toml\n"));
+  const auto json = nlohmann::json::parse(info("kt1/ --depth-scale 2000 --json").output);
+  EXPECT_EQ(json.at("depth_units_per_m"), 2000);
+  EXPECT_EQ(json.at("suggested").at("mu"), "0.2");
+  EXPECT_FALSE(json.at("suggested").contains("images"));
+  EXPECT_EQ(json.at("settings_file"), "kt1/slambench.toml");
 }
 
 TEST_F(InfoTest, SaysWithoutGroundTruthThatThereIsNone) {

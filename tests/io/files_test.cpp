@@ -2,15 +2,18 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #include "io/files.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "core/error.h"
 #include "support/temporary_folder.h"
@@ -105,32 +108,80 @@ TEST(Files, ReadingSaysWhyItFails) {
             "/dev/zero: cannot read: it is not a file");
 }
 
-TEST(Files, ReadsAPipe) {
-  const TemporaryFolder folder;
-  const std::string pipe = folder.path("pipe");
-  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  const std::string contents(20'000, 'x');
-  std::thread writer([&] { write_file(pipe, contents); });
-  EXPECT_EQ(read_file(pipe), contents);
+/// A pipe with a name, and both of its ends, so that either may be opened.
+struct Pipe {
+  Pipe() {
+    EXPECT_EQ(mkfifo(path.c_str(), 0600), 0);
+    ends = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+  }
+  ~Pipe() { close_ends(); }
+  void close_ends() {
+    if (ends >= 0) ::close(std::exchange(ends, -1));
+  }
+
+  TemporaryFolder folder;
+  std::string path = folder.path("pipe");
+  int ends = -1;
+};
+
+TEST(Files, ReadsAPipeToItsEnd) {
+  Pipe pipe;
+  const std::string contents(200'000, 'x');  // more than it holds at once
+  std::thread writer([&] {
+    write_file(pipe.path, contents);
+    pipe.close_ends();
+  });
+  EXPECT_EQ(read_file(pipe.path), contents);
   writer.join();
 }
 
-TEST(Files, MapsAFile) {
-  const TemporaryFolder folder;
-  const MappedFile file(folder.write("file", "abc"));
-  ASSERT_EQ(file.bytes().size(), 3u);
-  EXPECT_EQ(file.bytes()[2], std::byte{'c'});
-  EXPECT_TRUE(MappedFile(folder.write("empty", "")).bytes().empty());
+TEST(Files, APipeWithoutAnotherEndIsAnErrorAtOnce) {
+  Pipe pipe;
+  pipe.close_ends();
+  EXPECT_EQ(message_of<InputError>([&] { read_file(pipe.path); }),
+            pipe.path + ": cannot read: it is a pipe that nobody writes to");
+  EXPECT_EQ(message_of<Error>([&] { write_file(pipe.path, "text"); }),
+            pipe.path + ": cannot write: nobody reads from this pipe");
 }
 
-TEST(Files, MappingSaysWhyItFails) {
+std::string piece_of(const PiecewiseFile& file, std::size_t offset, std::size_t count) {
+  std::string text(count, '\0');
+  file.read(offset, std::as_writable_bytes(std::span(text)));
+  return text;
+}
+
+TEST(PiecewiseFile, IsReadFromAnyPlace) {
   const TemporaryFolder folder;
-  EXPECT_EQ(message_of<InputError>([&] { const MappedFile file(folder.path("none")); }),
+  const PiecewiseFile file(folder.write("file", "abcdef"));
+  EXPECT_EQ(file.size(), 6u);
+  EXPECT_EQ(piece_of(file, 0, 6), "abcdef");
+  EXPECT_EQ(piece_of(file, 4, 2), "ef");
+  EXPECT_EQ(piece_of(file, 2, 1), "c");
+  EXPECT_EQ(piece_of(file, 6, 0), "");
+  EXPECT_EQ(PiecewiseFile(folder.write("empty", "")).size(), 0u);
+}
+
+TEST(PiecewiseFile, ThatIsShortenedMeanwhileIsAnError) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("file", std::string(100'000, 'x'));
+  const PiecewiseFile file(path);
+  std::filesystem::resize_file(path, 10);
+  EXPECT_EQ(piece_of(file, 0, 10), "xxxxxxxxxx");
+  EXPECT_EQ(message_of<InputError>([&] { piece_of(file, 5, 50'000); }),
+            path + ": cannot read: it has 10 bytes, and had 100000 when it was opened");
+}
+
+TEST(PiecewiseFile, SaysWhyItCannotBeOpened) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(message_of<InputError>([&] { const PiecewiseFile file(folder.path("none")); }),
             folder.path("none") + ": cannot read: No such file or directory");
-  EXPECT_EQ(message_of<InputError>([&] { const MappedFile file(folder.path()); }),
+  EXPECT_EQ(message_of<InputError>([&] { const PiecewiseFile file(folder.path()); }),
             folder.path() + ": cannot read: it is a folder, not a file");
-  EXPECT_EQ(message_of<InputError>([&] { const MappedFile file("/dev/null"); }),
+  EXPECT_EQ(message_of<InputError>([&] { const PiecewiseFile file("/dev/null"); }),
             "/dev/null: cannot read: it is not a file");
+  const Pipe pipe;
+  EXPECT_EQ(message_of<InputError>([&] { const PiecewiseFile file(pipe.path); }),
+            pipe.path + ": cannot read: it is not a file");
 }
 
 /// Sets an environment variable, or unsets it, for the time it lives.

@@ -56,6 +56,15 @@ TEST_F(FrameTimerTest, AddsUpRepeatedCalls) {
   EXPECT_EQ(calls(times, Kernel::half_sample), 3);
   EXPECT_EQ(calls(times, Kernel::track), 0);
   EXPECT_DOUBLE_EQ(times.stage(Stage::preprocess), 7);
+  EXPECT_EQ(times.stage_calls[static_cast<std::size_t>(Stage::preprocess)], 3);
+  EXPECT_EQ(times.stage_calls[static_cast<std::size_t>(Stage::track)], 0);
+}
+
+TEST_F(FrameTimerTest, AStageThatTakesNoTimeHasRunAllTheSame) {
+  { const StageScope stage(&timer_, Stage::integrate); }
+  const FrameTimes times = timer_.take();
+  EXPECT_EQ(times.stage_calls[static_cast<std::size_t>(Stage::integrate)], 1);
+  EXPECT_EQ(times.stage(Stage::integrate), 0);
 }
 
 TEST_F(FrameTimerTest, TakeStartsAnew) {

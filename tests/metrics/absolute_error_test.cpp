@@ -152,6 +152,12 @@ TEST(AbsoluteError, RejectsWhatDoesNotDetermineTheRotation) {
   EXPECT_NO_THROW(align(two, two, Alignment::none));
 }
 
+TEST(AbsoluteError, OfASinglePairAlignedToItselfDoesNotExist) {
+  const auto one = positions_each_second({{1, 2, 3}}), other = positions_each_second({{0, 0, 0}});
+  EXPECT_THROW(absolute_trajectory_error(one, other, Alignment::first_pose), InputError);
+  EXPECT_EQ(absolute_trajectory_error(one, other, Alignment::none).statistics.count, 1u);
+}
+
 TEST(AbsoluteError, RejectsNoPairsAtAll) {
   for (const auto alignment : all_alignments) {
     EXPECT_THROW(absolute_trajectory_error({}, {}, alignment), InputError) << name(alignment);

@@ -56,6 +56,9 @@ TEST(BuildAndMachine, AreTold) {
   EXPECT_THAT(p.os, HasSubstr("Linux"));
   EXPECT_GE(p.cores, 1);
   EXPECT_GT(p.host_memory_bytes, std::size_t{1} << 20);
+  ASSERT_TRUE(p.load_average_start);
+  EXPECT_GE(*p.load_average_start, 0);
+  EXPECT_EQ(p.load_average_end, std::nullopt) << "nothing has run yet";
   EXPECT_EQ(p.started_at, "2015-05-26T09:30:00Z");
 }
 

@@ -37,8 +37,8 @@ std::set<std::string> names(const std::string& folder) {
   return found;
 }
 
-const std::set<std::string> result_files = {"README.txt", "frames.csv", "record.json",
-                                            "slambench1.log", "trajectory.tum"};
+const std::set<std::string> result_files = {"README.txt",  "frames.csv",     "groundtruth.tum",
+                                            "record.json", "slambench1.log", "trajectory.tum"};
 
 Record record_of(const std::string& sequence) {
   Record record = sample_record();
@@ -65,6 +65,15 @@ TEST(ResultFolder, HoldsAllFilesAndNothingElse) {
   EXPECT_EQ(read_file(folder.path("out/README.txt")), readme_text(record, false));
   EXPECT_EQ(read_file(folder.path("out/trajectory.tum")),
             trajectory_text(estimated_trajectory(record)));
+  EXPECT_EQ(read_file(folder.path("out/groundtruth.tum")), trajectory_text(record.ground_truth));
+}
+
+TEST(ResultFolder, HasNoGroundTruthFileWhereThereIsNone) {
+  const TemporaryFolder folder;
+  Record record = sample_record();
+  record.ground_truth.clear();
+  write_results(folder.path("out"), false, record);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("out/groundtruth.tum")));
 }
 
 TEST(ResultFolder, MakesTheFoldersOnTheWay) {

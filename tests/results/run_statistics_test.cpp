@@ -43,7 +43,7 @@ TEST(TimeFigures, OfStagesCoverAllButStartUp) {
   ASSERT_EQ(figures.stages.size(), stage_count - 1);
   const StageFigures& raycast = figures.stages[4];
   EXPECT_EQ(raycast.stage, Stage::raycast);
-  EXPECT_DOUBLE_EQ(raycast.seconds.median, 0.75);
+  EXPECT_DOUBLE_EQ(raycast.seconds.when_it_ran.median, 0.75);
   EXPECT_DOUBLE_EQ(raycast.share.value(), 8 / 15.0);
   EXPECT_FALSE(figures.stages[0].share.has_value()) << "acquire is no computation";
   EXPECT_FALSE(figures.stages[5].share.has_value()) << "render is no computation";
@@ -61,13 +61,49 @@ TEST(TimeFigures, OfKernelsHoldThoseThatWereCalled) {
   const KernelFigures& track = figures.kernels[2];
   EXPECT_EQ(track.calls, 12);
   EXPECT_DOUBLE_EQ(track.calls_per_frame, 4);
-  EXPECT_DOUBLE_EQ(track.seconds.mean, 8 / 3.0 / 16);
+  EXPECT_DOUBLE_EQ(track.seconds.per_frame, 8 / 3.0 / 16);
   EXPECT_DOUBLE_EQ(track.seconds_per_call, 8.0 / 12 / 16);
   EXPECT_DOUBLE_EQ(track.share.value(), 2 / 15.0);
   const KernelFigures& render = figures.kernels[4];
-  EXPECT_DOUBLE_EQ(render.seconds.mean, 1) << "3 s in one of three frames";
+  EXPECT_DOUBLE_EQ(render.seconds.per_frame, 1) << "3 s in one of three frames";
+  EXPECT_EQ(render.seconds.when_it_ran.count, 1u);
+  EXPECT_DOUBLE_EQ(render.seconds.when_it_ran.median, 3) << "what it takes when it runs";
   EXPECT_DOUBLE_EQ(render.seconds_per_call, 3);
   EXPECT_FALSE(render.share.has_value());
+}
+
+TEST(TimeFigures, FramesInWhichAStageDidNotRunCountInItsMeanAlone) {
+  Record record = sample_record();
+  const auto integrate = static_cast<std::size_t>(Stage::integrate);
+  for (const std::size_t frame : {1u, 3u}) {
+    record.frames[frame].times.stage_s[integrate] = 0;
+    record.frames[frame].times.stage_calls[integrate] = 0;
+    testing::called(record.frames[frame].times, Kernel::integrate, 0, 0);
+  }
+  const TimeFigures figures = time_figures(record);
+  const StageFigures& stage = figures.stages[3];
+  ASSERT_EQ(stage.stage, Stage::integrate);
+  EXPECT_EQ(stage.seconds.when_it_ran.count, 1u);
+  EXPECT_DOUBLE_EQ(stage.seconds.when_it_ran.median, 0.5);
+  EXPECT_DOUBLE_EQ(stage.seconds.when_it_ran.min, 0.5);
+  EXPECT_DOUBLE_EQ(stage.seconds.per_frame, 0.5 / 3);
+  EXPECT_DOUBLE_EQ(stage.share.value(), 0.5 / 3 / figures.computation_s.mean);
+  double of_stages = 0, of_shares = 0;
+  for (const StageFigures& s : figures.stages) of_stages += s.seconds.per_frame;
+  for (const StageFigures& s : figures.stages) of_shares += s.share.value_or(0);
+  EXPECT_DOUBLE_EQ(of_stages, figures.total_s.mean) << "the means add up";
+  EXPECT_DOUBLE_EQ(of_shares, 1);
+}
+
+TEST(TimeFigures, OfAStageThatNeverRanHaveNoStatistics) {
+  Record record = sample_record();
+  for (FrameRecord& frame : record.frames) {
+    frame.times.stage_s[static_cast<std::size_t>(Stage::render)] = 0;
+    frame.times.stage_calls[static_cast<std::size_t>(Stage::render)] = 0;
+  }
+  const StageFigures render = time_figures(record).stages[5];
+  EXPECT_EQ(render.seconds.when_it_ran.count, 0u);
+  EXPECT_EQ(render.seconds.per_frame, 0);
 }
 
 TEST(TimeFigures, RatesAreOfComputationAndOfTheWholeLoop) {

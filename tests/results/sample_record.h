@@ -7,6 +7,7 @@
 namespace slambench::testing {
 
 inline double& seconds(FrameTimes& times, Stage stage) {
+  times.stage_calls[static_cast<std::size_t>(stage)] = 1;
   return times.stage_s[static_cast<std::size_t>(stage)];
 }
 inline void called(FrameTimes& times, Kernel kernel, double seconds, int calls) {
@@ -107,9 +108,12 @@ inline Record sample_record() {
                   .backend = "serial",
                   .device = "A CPU",
                   .driver = "",
+                  .instruction_set = "AVX2",
                   .cores = 2,
                   .threads = 3,
                   .host_memory_bytes = 1024,
+                  .load_average_start = 0.25,
+                  .load_average_end = 1.5,
                   .command = "slambench run kt3",
                   .started_at = "2015-05-26T09:30:00Z"};
   r.parameters = {
@@ -128,6 +132,8 @@ inline Record sample_record() {
   r.units_per_m = 1000;
   r.own_from_camera = Eigen::Vector3d(1, -1, 1).asDiagonal();
   r.input_hash = "00112233445566778899aabbccddeeff";
+  r.ground_truth = {{0.5, Pose::Identity()}, {1, Pose(Eigen::Translation3d(1, 0, 0.5))}};
+  r.ground_truth_hash = "ffeeddccbbaa99887766554433221100";
 
   for (int i = 0; i < 5; ++i) {
     FrameRecord frame;

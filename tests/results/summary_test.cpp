@@ -20,24 +20,24 @@ using testing::sample_record;
 
 TEST(SummaryText, IsTheLiteralTextOfASmallRecord) {
   EXPECT_EQ(summary_text(sample_record(), "results/x", false), R"(kt3: 5 frames on serial
-device      A CPU, threads: 3
+device      A CPU, threads: 3, AVX2
 sizes       input 640x480, computation 320x240, volume 256x256x256 in 5x5x5 m
 
-kernel             ms per frame     share   calls/frame  ms per call
+kernel               ms a frame     share   calls/frame    ms a call
 acquire                  41.667         -          1.00       41.667
 mm2meters                83.333     6.7 %          1.00       83.333
 track                   166.667    13.3 %          4.00       41.667
 integrate               333.333    26.7 %          1.00      333.333
 
-stage             mean ms     median        p95        p99        max      share
-acquire            41.667     46.875     60.938     62.188     62.500          -
-preprocess         83.333     93.750    121.875    124.375    125.000      6.7 %
-track             166.667    187.500    243.750    248.750    250.000     13.3 %
-integrate         333.333    375.000    487.500    497.500    500.000     26.7 %
-raycast           666.667    750.000    975.000    995.000   1000.000     53.3 %
-render           1333.333   1500.000   1950.000   1990.000   2000.000          -
-computation      1250.000   1406.250   1828.125   1865.625   1875.000    100.0 %
-total            2625.000   2953.125   3839.062   3917.812   3937.500          -
+stage         ms a frame  frames    median       p95       p99       max   share
+acquire           41.667       3    46.875    60.938    62.188    62.500       -
+preprocess        83.333       3    93.750   121.875   124.375   125.000   6.7 %
+track            166.667       3   187.500   243.750   248.750   250.000  13.3 %
+integrate        333.333       3   375.000   487.500   497.500   500.000  26.7 %
+raycast          666.667       3   750.000   975.000   995.000  1000.000  53.3 %
+render          1333.333       3  1500.000  1950.000  1990.000  2000.000       -
+computation     1250.000       3  1406.250  1828.125  1865.625  1875.000 100.0 %
+total           2625.000       3  2953.125  3839.062  3917.812  3937.500       -
 
 over 3 runs                 median         95 % interval  run to run   of frames
 computation ms                1250       1000 -     2000      40.0 %      20.0 %
@@ -49,6 +49,7 @@ runs        another trajectory than run 1: 3
 
 speed       0.80 frames/s of computation, 0.25 frames/s of all 16.0 s
 measured    3 frames; left out as warm-up: 0
+load        0.25 before the frames, 1.50 after; usable processors: 2
 frames      2 tracked; 2 untracked (0, 3); 1 lost (3); 1 dropped (2)
 accuracy    processed frames: 3 of 4 poses matched with 400 of ground truth
   ATE       first pose      mean     4.00  rmse     4.00  max     4.00 mm
@@ -69,6 +70,18 @@ energy      over 16.00 s and 4 frames; idle baseline of 8.0 s
 noise       the governor is powersave
 results     results/x
 )");
+}
+
+TEST(SummaryText, TellsStagesThatDidNotRunInEveryFrame) {
+  Record record = sample_record();
+  for (const std::size_t frame : {1u, 3u}) {
+    record.frames[frame].times.stage_s[static_cast<std::size_t>(Stage::integrate)] = 0;
+    record.frames[frame].times.stage_calls[static_cast<std::size_t>(Stage::integrate)] = 0;
+  }
+  const std::string text = summary_text(record, "", false);
+  EXPECT_THAT(text, HasSubstr("integrate        166.667       1   500.000   500.000"));
+  EXPECT_THAT(text, HasSubstr("warm-up: 0; median to max are of the frames in\n"
+                              "            which a stage ran\n"));
 }
 
 TEST(SummaryText, FitsEightyColumnsWithLongNamesAndTimes) {
@@ -160,7 +173,7 @@ TEST(SummaryText, NamesTheStartWhenOnlyItWasUntracked) {
 TEST(SummaryText, OfARunWithoutFramesHasNoTables) {
   const std::string text = summary_text(Record{}, "", false);
   EXPECT_THAT(text, HasSubstr("measured    0 frames\n"));
-  EXPECT_THAT(text, Not(HasSubstr("ms per frame")));
+  EXPECT_THAT(text, Not(HasSubstr("ms a frame")));
 }
 
 TEST(FrameListText, JoinsRunsAndCountsTheRest) {

@@ -144,6 +144,12 @@ TEST(RecordJson, HoldsTheFigures) {
   EXPECT_EQ(document["accuracy"]["slambench1_ate_m"]["mean"], 0.0207);
   EXPECT_EQ(document["memory"]["map"], "bricks");
   EXPECT_EQ(document["provenance"]["threads"], 3);
+  EXPECT_EQ(document["provenance"]["instruction_set"], "AVX2");
+  EXPECT_EQ(document["provenance"]["load_average_start"], 0.25);
+  EXPECT_EQ(document["provenance"]["load_average_end"], 1.5);
+  EXPECT_EQ(document["sequence"]["ground_truth_hash"], "ffeeddccbbaa99887766554433221100");
+  EXPECT_EQ(document["time"]["kernels"]["track"]["seconds_per_frame"], 8 / 3.0 / 16);
+  EXPECT_EQ(document["time"]["kernels"]["track"]["seconds"]["count"], 3);
   EXPECT_EQ(document["absent"], (json{{"counters", "no permission"},
                                       {"energy.rails.dram", "No such file or directory"},
                                       {"memory.device_bytes", "computes in host memory"},
@@ -242,6 +248,20 @@ TEST(RecordJson, WhatIsMissingHasAReason) {
   EXPECT_FALSE(document["time"].contains("kernels"));
 }
 
+TEST(RecordJson, AStageThatNeverRanHasNoStatisticsButAReason) {
+  Record record = sample_record();
+  for (FrameRecord& frame : record.frames) {
+    frame.times.stage_s[static_cast<std::size_t>(Stage::integrate)] = 0;
+    frame.times.stage_calls[static_cast<std::size_t>(Stage::integrate)] = 0;
+  }
+  const json document = json::parse(record_json(record));
+  EXPECT_EQ(schema_errors(document), "");
+  const json& stage = document["time"]["stages"]["integrate"];
+  EXPECT_EQ(stage["seconds_per_frame"], 0);
+  EXPECT_FALSE(stage.contains("seconds"));
+  EXPECT_EQ(document["absent"]["time.stages.integrate.seconds"], "it ran in no measured frame");
+}
+
 TEST(RecordJson, WhatIsNotFiniteIsAbsentWithAReason) {
   Record record = sample_record();
   record.over_processed->ate_m["se3"].rmse = std::nan("");
@@ -320,6 +340,13 @@ TEST(FramesCsv, EveryRowHasAllColumns) {
   EXPECT_EQ(field(frames_csv(record), 4, "iterations_level1"), "");
 }
 
+TEST(FramesCsv, HasEmptyFieldsForStagesThatDidNotRun) {
+  Record record = sample_record();
+  record.frames[3].times.stage_calls[static_cast<std::size_t>(Stage::integrate)] = 0;
+  EXPECT_EQ(field(frames_csv(record), 3, "stage_integrate_s"), "");
+  EXPECT_EQ(field(frames_csv(record), 3, "stage_raycast_s"), "0.75");
+}
+
 TEST(FramesCsv, HasEmptyFieldsForWhatIsNotFinite) {
   Record record = sample_record();
   record.frames[3].T_start_camera(0, 3) = std::nan("");
@@ -372,6 +399,8 @@ TEST(ReadmeText, NamesTheRunAndItsFiles) {
   for (const char* file : {"record.json", "frames.csv", "trajectory.tum", "slambench1.log"}) {
     EXPECT_THAT(text, HasSubstr(std::string("\n  ") + file));
   }
+  EXPECT_THAT(text, HasSubstr("\n  groundtruth.tum"));
+  EXPECT_THAT(text, HasSubstr("evo_ape tum groundtruth.tum trajectory.tum"));
   EXPECT_THAT(text, Not(HasSubstr("images/")));
   EXPECT_THAT(text, Not(HasSubstr("INVALID")));
   EXPECT_THAT(readme_text(record, true), HasSubstr("\n  images/"));
@@ -379,6 +408,8 @@ TEST(ReadmeText, NamesTheRunAndItsFiles) {
   record.invalid_reasons = {"why"};
   EXPECT_THAT(readme_text(record, true), HasSubstr("\nINVALID: why\n"));
   EXPECT_THAT(readme_text(record, true), HasSubstr("\nINCOMPLETE: the run was interrupted\n"));
+  record.ground_truth.clear();
+  EXPECT_THAT(readme_text(record, false), Not(HasSubstr("groundtruth.tum")));
 }
 
 /// A decimal comma in the C++ locale, and in the C locale where the system has such, while it

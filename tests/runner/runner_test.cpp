@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "io/trajectory_file.h"
 #include "runner/fakes.h"
 #include "runner/input_hash.h"
 
@@ -267,6 +268,24 @@ TEST_F(RunnerTest, HashesWhatWasProcessed) {
   EXPECT_EQ(three.size(), 32u);
   EXPECT_EQ(run(3).input_hash, three);
   EXPECT_NE(run(2).input_hash, three);
+}
+
+TEST_F(RunnerTest, KeepsTheGroundTruthAndItsHash) {
+  testing::FakeSource source(2, clock_);
+  EXPECT_EQ(run(source).ground_truth_hash, "");
+  source.edit().ground_truth = {{source.stamp(1), testing::pose_at(1, 2, 3)}};
+  const Record record = run(source);
+  ASSERT_EQ(record.ground_truth.size(), 1u);
+  EXPECT_EQ(record.ground_truth[0].T_world_camera.translation(), Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(record.ground_truth_hash, hash_text(trajectory_text(record.ground_truth)));
+  source.edit().ground_truth[0].time_s += 1e-6;
+  EXPECT_NE(run(source).ground_truth_hash, record.ground_truth_hash);
+}
+
+TEST(InputHash, OfTextIsThatOfItsBytes) {
+  // printf '\x01\0\0\0\x02\x01' | xxh128sum
+  EXPECT_EQ(hash_text(std::string_view("\x01\0\0\0\x02\x01", 6)),
+            "1db8036cdd4f92c51a06d0b66ca7c142");
 }
 
 TEST(InputHash, IsThatOfIndexAndDepthInOrder) {

@@ -43,7 +43,8 @@ TEST(KinectFusionParameters, DefaultsAreThePublishedOnes) {
       {"raycast-small-step", "1"},
       {"raycast-slow-below", "0.8"},
       {"render-far-factor", "2"},
-      {"light", "1,1,-1"},
+      {"light", "-4,-7,-6"},  // this and the next are not the published ones
+      {"light-frame", "camera"},
       {"ambient", "0.1"},
       {"fused", "false"},
   };

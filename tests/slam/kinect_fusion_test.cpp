@@ -202,6 +202,7 @@ TEST_F(Pipeline, RendersAsConfigured) {
   p_.far_m = 3;
   p_.render_far_factor = 1.5;
   p_.light_m = {1, 2, 3};
+  p_.light_frame = "volume";
   p_.ambient = 0.3;
   KinectFusion fusion = make();
   process(fusion);
@@ -215,7 +216,19 @@ TEST_F(Pipeline, RendersAsConfigured) {
   EXPECT_EQ(backend_.shading.ambient, 0.3f);
 }
 
-/// Published defaults: light (1,1,-1), ambient 0.1, twice the far plane, steps 0.075 m and 2/256.
+TEST_F(Pipeline, TheLightMovesWithTheCameraWhereItIsToldTo) {
+  p_.light_m = {1, 2, 3};
+  p_.light_frame = "camera";
+  KinectFusion fusion = make();
+  process_fifth(fusion);
+  fusion.render();
+  const Eigen::Vector3d light = answered_pose() * Eigen::Vector3d(1, 2, 3);
+  EXPECT_NEAR(backend_.shading.light_m.x, light.x(), 1e-5);
+  EXPECT_NEAR(backend_.shading.light_m.y, light.y(), 1e-5);
+  EXPECT_NEAR(backend_.shading.light_m.z, light.z(), 1e-5);
+}
+
+/// Published defaults: ambient 0.1, twice the far plane, steps 0.075 m and 2/256.
 TEST_F(Pipeline, AsksWithThePublishedDefaults) {
   p_ = {};
   p_.volume_resolution = {16, 8, 12};

@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -44,6 +45,9 @@ class Program {
   /// Standard error goes to this file from now on, and is not in Outcome::err.
   void set_error(const std::string& file) { error_ = file; }
 
+  /// A limit of the process from now on, below the hard one (sys/resource.h).
+  void set_limit(decltype(RLIMIT_STACK) resource, rlim_t value) { limits_[resource] = value; }
+
   pid_t start(const std::vector<std::string>& arguments) const {
     const pid_t child = ::fork();
     if (child == 0) execute(arguments);
@@ -77,6 +81,12 @@ class Program {
     ::dup2(::open(error_.empty() ? folder_.path("stderr").c_str() : error_.c_str(), flags, mode),
            STDERR_FILENO);
     for (const auto& [name, value] : environment_) ::setenv(name.c_str(), value.c_str(), 1);
+    for (const auto& [resource, value] : limits_) {
+      rlimit limit{};
+      ::getrlimit(resource, &limit);
+      limit.rlim_cur = value;
+      if (::setrlimit(resource, &limit) != 0) ::_exit(125);
+    }
     if (::chdir(folder_.path().c_str()) != 0) ::_exit(126);
     std::vector<char*> words = {const_cast<char*>(path_.c_str())};
     for (const auto& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
@@ -88,6 +98,7 @@ class Program {
   std::string path_;
   TemporaryFolder folder_;
   std::map<std::string, std::string> environment_;
+  std::map<decltype(RLIMIT_STACK), rlim_t> limits_;
   std::string output_ = "-";  ///< "-": kept for Outcome::out
   std::string error_;         ///< empty: kept for Outcome::err
 };

@@ -64,6 +64,12 @@ class BrickVolume final : public VersionedStorage {
                static_cast<std::size_t>(bricks_.x) +
            static_cast<std::size_t>(bx);
   }
+  /// Where in the volume a brick's voxel `i` is; at the far borders also beyond it.
+  Int3 voxel_at(std::size_t brick, int i) const {
+    const int b = static_cast<int>(brick);
+    return {b % bricks_.x * edge + i % edge, b / bricks_.x % bricks_.y * edge + i / edge % edge,
+            b / bricks_.x / bricks_.y * edge + i / edge / edge};
+  }
 
   /// Copies a brick out.
   void load(std::size_t brick, std::int16_t* tsdf, std::int16_t* weights) const;

@@ -32,11 +32,6 @@ std::string processor_name() {
   return "processor";
 }
 
-std::size_t voxel_count(Int3 resolution) {
-  return static_cast<std::size_t>(resolution.x) * static_cast<std::size_t>(resolution.y) *
-         static_cast<std::size_t>(resolution.z);
-}
-
 /// Calls f(brick, voxel of the brick, voxel of the flat volume) for every voxel of a volume.
 template <class F>
 void for_each_voxel(const BrickVolume& volume, Int3 n, F f) {
@@ -62,20 +57,13 @@ void read_bricks(Voxel* destination, const BrickVolume& source, Int3 resolution)
 }
 
 void write_bricks(BrickVolume& destination, const Voxel* source, Int3 n) {
-  constexpr int edge = BrickVolume::edge;
   destination.clear();
-  const Int3 bricks = destination.bricks();
   std::int16_t tsdf[BrickVolume::voxels], weights[BrickVolume::voxels];
   for (std::size_t brick = 0; brick < destination.count(); ++brick) {
-    const int linear = static_cast<int>(brick);
-    const int x0 = linear % bricks.x * edge, y0 = linear / bricks.x % bricks.y * edge;
-    const int z0 = linear / bricks.x / bricks.y * edge;
     for (int i = 0; i < BrickVolume::voxels; ++i) {
-      const auto x = static_cast<std::size_t>(clamp_index(x0 + i % edge, n.x));
-      const auto y = static_cast<std::size_t>(clamp_index(y0 + i / edge % edge, n.y));
-      const auto z = static_cast<std::size_t>(clamp_index(z0 + i / edge / edge, n.z));
-      const Voxel& voxel =
-          source[(z * static_cast<std::size_t>(n.y) + y) * static_cast<std::size_t>(n.x) + x];
+      const Int3 at = destination.voxel_at(brick, i);
+      const Voxel& voxel = source[voxel_index(n, clamp_index(at.x, n.x), clamp_index(at.y, n.y),
+                                              clamp_index(at.z, n.z))];
       tsdf[i] = voxel.tsdf;
       weights[i] = voxel.weight;
     }

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 
 namespace slambench {
 
-/// What Linux can hand out without swapping; elsewhere the whole memory. An allocation beyond it
-/// would succeed and the process be killed later.
-std::size_t available_memory_bytes();
+/// What Linux can hand out without swapping, or what is left of the limit of a control group that
+/// the process is in (a container's), whichever is less; elsewhere the whole memory. An allocation
+/// beyond it would succeed and the process be killed later. The system's files are looked for below
+/// `root`.
+std::size_t available_memory_bytes(const std::filesystem::path& root = "/");
 
 /// Throws UnavailableError when the machine has less than that available.
 void require_memory(std::size_t bytes);

@@ -160,6 +160,8 @@ void vertex2normal(Float3* normals, const Float3* vertices, Size size, Rows rows
   }
 }
 
+const char* instruction_set() { return hwy::TargetName(HWY_TARGET); }
+
 void render_depth(Rgba8* image, const float* depth_m, Size size, float near_m, float far_m,
                   Rows rows) {
   for (std::size_t i = index(size, 0, rows.begin); i < index(size, 0, rows.end); ++i) {
@@ -181,6 +183,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace slambench {
 
+HWY_EXPORT(instruction_set);
 HWY_EXPORT(mm2meters);
 HWY_EXPORT(bilateral_filter);
 HWY_EXPORT(half_sample);
@@ -188,6 +191,8 @@ HWY_EXPORT(depth2vertex);
 HWY_EXPORT(vertex2normal);
 HWY_EXPORT(render_depth);
 HWY_EXPORT(render_track);
+
+std::string kernels_instruction_set() { return HWY_DYNAMIC_DISPATCH(instruction_set)(); }
 
 void mm2meters_rows(float* depth_m, Size size, const std::uint16_t* depth, int ratio,
                     float units_per_m, Rows rows) {

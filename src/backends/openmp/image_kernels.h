@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #pragma once
 
+#include <string>
+
 #include "kernels/pixel.h"
 
 /// The image kernels over rows [y0, y1), on the widest vectors of this processor. Pointers are to
@@ -12,6 +14,9 @@ namespace slambench {
 struct Rows {
   int begin = 0, end = 0;
 };
+
+/// Highway's name of what these and all other kernels of this backend were chosen for here.
+std::string kernels_instruction_set();
 
 void mm2meters_rows(float* depth_m, Size size, const std::uint16_t* depth, int ratio,
                     float units_per_m, Rows rows);

@@ -65,10 +65,8 @@ void OpenmpBackend::do_init_volume(Volume& volume) {
   if (volume.map == MapKind::bricks) return bricks(volume).clear();
   Voxel* voxel = voxels(volume);
   const Int3 n = volume.resolution;
-  const std::size_t slice = static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y);
   parallel_.for_chunks(n.z, 1, [&](int begin, int end) {
-    std::fill(voxel + slice * static_cast<std::size_t>(begin),
-              voxel + slice * static_cast<std::size_t>(end), Voxel{});
+    std::fill(voxel + voxel_index(n, 0, 0, begin), voxel + voxel_index(n, 0, 0, end), Voxel{});
   });
 }
 

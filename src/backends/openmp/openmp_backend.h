@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "backends/host/host_backend.h"
+#include "backends/openmp/image_kernels.h"
 #include "backends/openmp/integrate_kernels.h"
 #include "backends/openmp/parallel.h"
 #include "backends/openmp/raycast_kernels.h"
@@ -22,6 +23,7 @@ class OpenmpBackend final : public HostBackend {
   explicit OpenmpBackend(int threads) : parallel_(threads) {}
 
   int threads() const override { return parallel_.threads(); }
+  std::string instruction_set() const override { return kernels_instruction_set(); }
 
   std::string_view name() const override { return "openmp"; }
   bool supports(Kernel kernel, MapKind map) const override;

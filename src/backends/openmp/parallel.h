@@ -16,7 +16,8 @@ namespace slambench {
 /// threads, so that work whose result is kept per chunk does not depend on it.
 class Parallel {
  public:
-  /// 0: one thread per core that this process may use.
+  /// 0: one thread per core that this process may use. Throws UnavailableError when the system does
+  /// not grant them.
   explicit Parallel(int threads);
 
   int threads() const { return threads_; }

@@ -19,18 +19,14 @@ void for_each_pixel(Size size, F f) {
 /// Every voxel of every brick.
 void integrate_bricks(BrickVolume& volume, Float3 voxel_m, const float* depth_m, Size size,
                       const IntegrateParameters& parameters) {
-  constexpr int edge = BrickVolume::edge;
-  const Int3 bricks = volume.bricks();
   std::int16_t tsdf[BrickVolume::voxels], weights[BrickVolume::voxels];
   for (std::size_t brick = 0; brick < volume.count(); ++brick) {
-    const int linear = static_cast<int>(brick);
-    const int x0 = linear % bricks.x * edge, y0 = linear / bricks.x % bricks.y * edge;
-    const int z0 = linear / bricks.x / bricks.y * edge;
     volume.load(brick, tsdf, weights);
     bool changed = false;
     for (int i = 0; i < BrickVolume::voxels; ++i) {
-      const Float3 center = parameters.T_camera_volume.apply(
-          voxel_center(x0 + i % edge, y0 + i / edge % edge, z0 + i / edge / edge, voxel_m));
+      const Int3 at = volume.voxel_at(brick, i);
+      const Float3 center =
+          parameters.T_camera_volume.apply(voxel_center(at.x, at.y, at.z, voxel_m));
       Voxel voxel{tsdf[i], weights[i]};
       changed |= integrate_voxel(&voxel, center, depth_m, size, parameters);
       tsdf[i] = voxel.tsdf;
@@ -58,10 +54,7 @@ void SerialBackend::do_generate_gaussian(DeviceImage<float>& weights, float sigm
 
 void SerialBackend::do_init_volume(Volume& volume) {
   if (volume.map == MapKind::bricks) return bricks(volume).clear();
-  const auto count = static_cast<std::size_t>(volume.resolution.x) *
-                     static_cast<std::size_t>(volume.resolution.y) *
-                     static_cast<std::size_t>(volume.resolution.z);
-  std::fill_n(voxels(volume), count, Voxel{});
+  std::fill_n(voxels(volume), voxel_count(volume.resolution), Voxel{});
 }
 
 void SerialBackend::do_mm2meters(DeviceImage<float>& depth_m,
