@@ -21,15 +21,14 @@ expect() {
   fi
 }
 
-expect 0 'SEQUENCE.raw' --help
+expect 0 'gpu-check [options] SEQUENCE' --help
 expect 2 'found no sequence'
 expect 2 "found option '--fast'" --fast
 expect 2 '--out: found nothing' a.raw --out
 expect 2 "found a second sequence 'b.raw'" a.raw b.raw
 expect 3 'a.raw: cannot read the sequence' a.raw
 touch a.raw
-expect 3 'slambench.toml: cannot read the settings' a.raw
-touch slambench.toml
+expect 3 'my.toml: cannot read the settings' a.raw --config my.toml
 expect 2 "--limit: found 'soon'" a.raw --limit soon
 mkdir debs
 expect 4 'found no .deb file in debs' a.raw --debs debs --out out-folder --build build
