@@ -8,7 +8,7 @@ PREFIX ?= /usr/local
 INSTALL ?= yes
 ARGS ?=
 
-.PHONY: help run test asan tidy install build dependencies clean
+.PHONY: help run test asan tsan aarch64 tidy install build dependencies clean
 .DEFAULT_GOAL := help
 
 help: ## show this
@@ -16,6 +16,8 @@ help: ## show this
 	@echo "                (ARGS='path/to/recording -c 2' runs something else)"
 	@echo "make test       set up, build, and run all tests"
 	@echo "make asan       the tests under AddressSanitizer and UndefinedBehaviourSanitizer"
+	@echo "make tsan       the agreement tests under ThreadSanitizer"
+	@echo "make aarch64    the agreement tests, built for 64-bit ARM and emulated"
 	@echo "make tidy       clang-tidy on every source file (some ten minutes on two cores)"
 	@echo "make install    install to PREFIX ($(PREFIX)); DESTDIR is respected"
 	@echo "make clean      remove build/; results/ stays"
@@ -45,6 +47,19 @@ asan: dependencies
 	@cmake --preset asan
 	@cmake --build --preset asan --parallel $(JOBS)
 	@ctest --preset asan --parallel $(JOBS)
+
+tsan: dependencies
+	@cmake --preset tsan
+	@cmake --build --preset tsan --parallel $(JOBS)
+	@ctest --preset tsan --parallel $(JOBS)
+
+aarch64:
+ifneq ($(INSTALL),no)
+	@scripts/install_dependencies aarch64
+endif
+	@cmake --preset aarch64
+	@cmake --build --preset aarch64 --parallel $(JOBS)
+	@ctest --preset aarch64 --parallel $(JOBS)
 
 tidy: dependencies
 	@cmake --preset release

@@ -59,6 +59,21 @@ installs "install --yes --quiet --no-install-recommends libfmt-dev libspng-dev"
 if ((EUID == 0)) && grep -qx sudo "$work/apt"; then fail "root used sudo"; fi
 if ((EUID != 0)) && ! grep -qx sudo "$work/apt"; then fail "sudo was not used"; fi
 
+# Packages of another architecture only on request, and dpkg knows it before apt looks.
+stand_in dpkg-query 'case "${*: -1}" in *:arm64) exit 1 ;; *) echo -n installed ;; esac'
+stand_in dpkg 'echo "dpkg $*" >>"$WORK/apt"'
+run 0 --check
+run 1 aarch64 --check
+says "libhwy-dev:arm64"
+run 0 aarch64
+[[ $(grep -v sudo "$work/apt" | head -n 2) == $'dpkg --add-architecture arm64\nupdate --quiet' ]] ||
+  fail "arm64 was not added before the update"
+grep -q '^install .* libhwy-dev:arm64' "$work/apt" || fail "the arm64 packages were not installed"
+stand_in dpkg 'exit 1'
+run 4 aarch64
+says "could not add the architecture arm64"
+stand_in dpkg-query 'case "${*: -1}" in libfmt-dev | libspng-dev) exit 1 ;; *) echo -n installed ;; esac'
+
 touch "$work/broken"
 run 4
 says "could not be renewed"
