@@ -140,6 +140,8 @@ TEST_F(IntegrateVoxel, TakesTheNearestPixel) {
 
 TEST_F(IntegrateVoxel, LeavesWhatIsNotSeen) {
   for (const float depth_m : {0.0f, -1.0f, nan_f}) EXPECT_FALSE(measure(depth_m)) << depth_m;
+  depth_ = Image<float>({4, 6}, 0.0f);
+  EXPECT_FALSE(integrate({0, 0, 0.3f}));  // nearer than mu: no depth is not a surface at 0
   depth_ = Image<float>({4, 6}, 9.0f);
   EXPECT_FALSE(integrate({0, 0, 0.24f}));
   EXPECT_FALSE(integrate({0, 0, -2}));
