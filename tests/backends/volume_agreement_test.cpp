@@ -203,6 +203,65 @@ TEST(Bricks, FreeSpaceIsAFixedPointWhateverTheWeight) {
   }
 }
 
+/// Whether every row of a plane goes on with the next brick's first value, where readers of pairs
+/// can meet anything but +1.
+bool rows_go_on(const BrickVolume& volume) {
+  const auto width = static_cast<std::size_t>(volume.bricks().x);
+  for (std::size_t brick = 0; brick < volume.count(); ++brick) {
+    const bool last = (brick + 1) % width == 0;
+    if (last || (volume.is_free(brick) && volume.is_free(brick + 1))) continue;
+    const std::int16_t* row =
+        volume.planes() +
+        static_cast<std::ptrdiff_t>(volume.plane_table()[brick]) * BrickVolume::plane_values;
+    for (int i = 0; i < BrickVolume::voxels;
+         i += BrickVolume::edge, row += BrickVolume::row_values) {
+      if (row[BrickVolume::edge] != volume.tsdf(brick + 1, i)) return false;
+    }
+  }
+  return true;
+}
+
+/// Bricks in any order, as a surface grows to either side, over free ones and again.
+TEST(Bricks, RowsGoOnIntoTheNextBrick) {
+  BrickVolume volume({48, 16, 8});
+  std::vector<std::int16_t> tsdf(BrickVolume::voxels), weights(BrickVolume::voxels, 1);
+  std::int16_t value = 0;
+  for (const std::size_t brick : {2, 1, 0, 4, 5, 3, 7, 9, 8, 11, 1, 2}) {
+    for (std::int16_t& distance : tsdf) distance = value++;
+    volume.reserve(1);
+    volume.store(brick, tsdf.data(), weights.data());
+    volume.refresh();
+    ASSERT_TRUE(rows_go_on(volume)) << brick;
+    EXPECT_FALSE(volume.is_free(brick));
+  }
+  EXPECT_TRUE(volume.is_free(6));
+  EXPECT_TRUE(volume.is_free(10));
+}
+
+/// Rays that look along x at a slab whose first voxels are the first of a brick.
+TEST(Bricks, RaysMeetASurfaceThatBeginsWithABrick) {
+  const Int3 n{64, 64, 64};
+  std::vector<Voxel> voxels(voxel_count(n));
+  for (int i = 0; i < static_cast<int>(voxels.size()); ++i) {
+    const int x = i % n.x;
+    if (x >= 32) voxels[static_cast<std::size_t>(i)] = {static_cast<std::int16_t>(-900 * x), 1};
+  }
+  Pose pose(Eigen::Translation3d(0.1, 1.0, 1.0));
+  pose.rotate(Eigen::AngleAxisd(1.5, Eigen::Vector3d::UnitY()));
+  RaycastParameters parameters = ray_parameters({2, 2, 2}, n, 0);
+  parameters.T_volume_camera = to_rigid3f(pose);
+  const auto seen = [&](Backend& backend, MapKind map) {
+    Volume volume = backend.make_volume(map, n, {2, 2, 2});
+    backend.write_volume(volume, voxels);
+    return raycast(backend, volume, parameters);
+  };
+  SerialBackend serial;
+  OpenmpBackend openmp(2);
+  const Surface expected = seen(serial, MapKind::grid);
+  EXPECT_EQ(seen(openmp, MapKind::grid), expected);
+  EXPECT_EQ(seen(openmp, MapKind::bricks), expected);
+}
+
 TEST(Bricks, FreeSpaceTakesNoPlanes) {
   OpenmpBackend backend(2);
   Volume volume = backend.make_volume(MapKind::bricks, {64, 64, 64}, {2, 2, 2});

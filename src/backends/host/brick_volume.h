@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -11,16 +12,13 @@
 
 namespace slambench {
 
-/// Planes of 512 16-bit values, handed out one after the other and given back all together. Their
-/// addresses never change: the address space for all is set aside at once, the memory (in huge
-/// pages where the system has them) as it is used.
+/// Planes of equally many 16-bit values, handed out one after the other and given back all
+/// together. Their addresses never change: the address space for all is set aside at once, the
+/// memory (in huge pages where the system has them) as it is used.
 class PlanePool {
  public:
-  static constexpr std::size_t plane_values = 512;
-  static constexpr std::size_t plane_bytes = plane_values * sizeof(std::int16_t);
-
   /// Throws UnavailableError when the address space is refused.
-  explicit PlanePool(std::size_t capacity);
+  PlanePool(std::size_t capacity, std::size_t plane_values);
   ~PlanePool();
   PlanePool(const PlanePool&) = delete;
   PlanePool& operator=(const PlanePool&) = delete;
@@ -31,11 +29,13 @@ class PlanePool {
   int take() { return static_cast<int>(used_.fetch_add(1, std::memory_order_relaxed)); }
   void clear() { used_ = 0; }
 
-  std::int16_t* plane(int i) const { return data_ + static_cast<std::size_t>(i) * plane_values; }
+  std::int16_t* plane(int i) const { return data_ + static_cast<std::size_t>(i) * plane_values_; }
   std::size_t used() const { return used_; }
+  std::size_t used_bytes() const { return used_ * plane_bytes(); }
+  std::size_t plane_bytes() const { return plane_values_ * sizeof(std::int16_t); }
 
  private:
-  std::size_t capacity_, mapped_bytes_;
+  std::size_t capacity_, plane_values_, mapped_bytes_;
   std::size_t granted_ = 0;  ///< planes that there was memory for when last looked
   std::atomic<std::size_t> used_ = 0;
   std::int16_t* data_ = nullptr;
@@ -46,10 +46,16 @@ class PlanePool {
 /// equal keeps that one number instead of a plane. Nothing is lost: 32766 is a fixed point of the
 /// update with a truncated distance of 1, whatever the weight. Where the resolution is no
 /// multiple of 8, the last bricks have voxels beyond it, which nobody reads.
+///
+/// A row of distances is followed by the first value of the same row in the next brick along x, so
+/// that any two neighbours along x lie side by side in one plane. A brick of +1 before one that is
+/// not therefore has a plane too.
 class BrickVolume final : public VersionedStorage {
  public:
   static constexpr int edge = 8;
   static constexpr int voxels = edge * edge * edge;
+  static constexpr int row_values = edge + 1;  ///< of a plane of distances
+  static constexpr int plane_values = row_values * edge * edge;
   static constexpr std::int16_t free_space = Voxel{}.tsdf;
 
   explicit BrickVolume(Int3 resolution);
@@ -74,8 +80,10 @@ class BrickVolume final : public VersionedStorage {
   /// Copies a brick out.
   void load(std::size_t brick, std::int16_t* tsdf, std::int16_t* weights) const;
   /// Stores a brick; there must be a plane of each kind in reserve unless it has both. Different
-  /// bricks may be stored by different threads.
+  /// bricks may be stored by different threads; refresh() makes what was stored complete.
   void store(std::size_t brick, const std::int16_t* tsdf, const std::int16_t* weights);
+  /// To be called after bricks were stored, before any are read by others than load().
+  void refresh();
   /// Makes sure that so many bricks can be stored, or throws UnavailableError.
   void reserve(std::size_t bricks);
 
@@ -87,18 +95,20 @@ class BrickVolume final : public VersionedStorage {
   void set_uniform_weight(std::size_t brick, std::int16_t weight) {
     weight_planes_[brick] = -1 - weight;
   }
-  /// Null when the brick keeps no plane of its own.
-  std::int16_t* own_tsdf(std::size_t brick) const {
-    return distance_planes_[brick] == 0 ? nullptr : distances_.plane(distance_planes_[brick]);
+  /// Whether every distance of the brick is +1.
+  bool is_free(std::size_t brick) const { return levels_[brick] == free_level; }
+  /// The distance of a brick's voxel `i`.
+  std::int16_t tsdf(std::size_t brick, int i) const {
+    return distances_.plane(distance_planes_[brick])[i + i / edge];
   }
+  /// Null when the brick keeps no plane of its own.
   std::int16_t* own_weights(std::size_t brick) const {
     return uniform(brick) ? nullptr : weights_.plane(weight_planes_[brick]);
   }
 
   float tsdf(int x, int y, int z) const {
-    const std::size_t brick = index(x / edge, y / edge, z / edge);
-    return distances_.plane(
-        distance_planes_[brick])[(z % edge * edge + y % edge) * edge + x % edge];
+    return tsdf(index(x / edge, y / edge, z / edge),
+                (z % edge * edge + y % edge) * edge + x % edge);
   }
 
   /// For readers with many lanes: the plane of every brick, 0 for a brick of +1, and the planes.
@@ -108,23 +118,33 @@ class BrickVolume final : public VersionedStorage {
   /// The brick that owns a plane other than 0.
   std::int32_t owner(std::size_t plane) const { return owners_[plane]; }
 
-  /// A byte a brick, not 0 when a sample whose lower corner lies in it can be other than +1: when
-  /// it or a neighbour above it along any axes has distances of its own. Three bytes follow the
-  /// last. Up to date after refresh_occupancy().
-  const std::uint8_t* occupancy() const { return occupancy_.data(); }
-  void refresh_occupancy();
+  /// Distances in 256 levels, for a byte a brick: a distance is of level l or above if and only if
+  /// it is at least 256 (l - 128). The last level stands for +1 alone.
+  static constexpr int free_level = 255;
+  static constexpr int level_of(std::int16_t tsdf) {
+    return tsdf == free_space ? free_level : std::min((tsdf >> 8) + 128, free_level - 1);
+  }
+  /// The lowest level of the brick's own distances.
+  std::uint8_t level(std::size_t brick) const { return levels_[brick]; }
+  /// A byte a brick: the lowest level that a sample whose lower corner lies in it can read. Three
+  /// bytes follow the last.
+  const std::uint8_t* sample_levels() const { return sample_levels_.data(); }
 
   /// Memory in use.
   std::size_t bytes() const;
 
  private:
+  /// The level that samples read: the least of the brick's own and of those above it.
+  void refresh_sample_levels();
+  void copy_first_column(const std::int16_t* tsdf, std::size_t stride, int plane_before);
+
   Int3 bricks_;
   std::vector<std::int32_t> distance_planes_;  ///< per brick
   std::vector<std::int32_t> weight_planes_;    ///< per brick; negative: -1 - the uniform weight
   PlanePool distances_, weights_;
-  std::vector<std::uint8_t> occupancy_;
+  std::vector<std::uint8_t> levels_, sample_levels_;
   std::vector<std::int32_t> owners_;  ///< of the distance planes
-  std::size_t seen_planes_ = 1;       ///< planes that the occupancy knows
+  std::size_t seen_planes_ = 1;       ///< planes whose rows have been made complete
 };
 
 /// A BrickVolume as the per-voxel maths of kernels/ reads it.

@@ -49,9 +49,8 @@ void for_each_voxel(const BrickVolume& volume, Int3 n, F f) {
 
 void read_bricks(Voxel* destination, const BrickVolume& source, Int3 resolution) {
   for_each_voxel(source, resolution, [&](std::size_t brick, int i, std::size_t flat) {
-    const std::int16_t* tsdf = source.own_tsdf(brick);
     const std::int16_t* weights = source.own_weights(brick);
-    destination[flat] = {tsdf == nullptr ? BrickVolume::free_space : tsdf[i],
+    destination[flat] = {source.tsdf(brick, i),
                          weights == nullptr ? source.uniform_weight(brick) : weights[i]};
   });
 }
@@ -70,7 +69,7 @@ void write_bricks(BrickVolume& destination, const Voxel* source, Int3 n) {
     destination.reserve(1);
     destination.store(brick, tsdf, weights);
   }
-  destination.refresh_occupancy();
+  destination.refresh();
 }
 
 }  // namespace

@@ -188,7 +188,7 @@ void classify(BrickVolume& volume, const IntegrateInput& in, const DepthPyramid&
     const BrickChange change = change_of(corners, in, depth);
     if (change == BrickChange::none) continue;
     const std::size_t brick = volume.index(bx, by, bz);
-    if (change == BrickChange::free && volume.own_tsdf(brick) == nullptr && volume.uniform(brick)) {
+    if (change == BrickChange::free && volume.is_free(brick) && volume.uniform(brick)) {
       const auto weight = static_cast<float>(volume.uniform_weight(brick));
       volume.set_uniform_weight(
           brick, static_cast<std::int16_t>(std::min(weight + 1.0f, in.parameters.max_weight)));

@@ -195,7 +195,7 @@ void OpenmpBackend::integrate_bricks(BrickVolume& volume, const IntegrateInput& 
                            integrate_brick(volume, input, all_varied_[static_cast<std::size_t>(i)]);
                          }
                        });
-  volume.refresh_occupancy();
+  volume.refresh();
 }
 
 void OpenmpBackend::march(RaycastOutput output, const Volume& volume,

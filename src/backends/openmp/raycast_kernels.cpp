@@ -127,30 +127,73 @@ class BrickLanes {
  public:
   static constexpr bool skips = true;
 
-  explicit BrickLanes(const BrickView& view)
+  BrickLanes(const BrickView& view, int skip_level)
       : planes_(view.volume->plane_table()),
         values_(view.volume->planes()),
-        occupancy_(view.volume->occupancy()),
+        levels_(view.volume->sample_levels()),
+        skip_level_(skip_level),
         bricks_(view.volume->bricks()),
         n_(view.resolution),
-        size_m_(view.size_m) {}
+        size_m_(view.size_m) {
+    const int row = bricks_.x, slice = bricks_.x * bricks_.y;
+    for (int i = 0; i < 8; ++i) {
+      around_[i] = (i & 1) + ((i >> 1) & 1) * row + (i >> 2) * slice;
+    }
+  }
 
   Int3 resolution() const { return n_; }
   Float3 size_m() const { return size_m_; }
 
-  /// Not 0 where a sample in the cell can be other than +1.
-  HWY_INLINE Ints occupied(const CellBase& cell) const {
+  /// Where a sample in the cell need not be taken.
+  HWY_INLINE hn::Mask<IntTag> skippable(const CellBase& cell) const {
     const Ints brick = brick_index(hn::ShiftRight<3>(clamp(cell.x, set_int(n_.x - 1))),
                                    hn::ShiftRight<3>(clamp(cell.y, set_int(n_.y - 1))),
                                    hn::ShiftRight<3>(clamp(cell.z, set_int(n_.z - 1))));
-    const Ints bytes =
-        hn::GatherOffset(i32, reinterpret_cast<const std::int32_t*>(occupancy_), brick);
-    return hn::And(bytes, set_int(0xff));
+    const Ints bytes = hn::GatherOffset(i32, reinterpret_cast<const std::int32_t*>(levels_), brick);
+    return hn::Gt(hn::And(bytes, set_int(0xff)), set_int(skip_level_ - 1));
   }
 
+  /// The values at voxels of four positions along each axis, but for the corners and edges of that
+  /// cube.
+  HWY_INLINE void around(const Ints* x, const Ints* y, const Ints* z, Floats (*value)[4][4]) const {
+    Ints by[4], bz[4];
+    for (int i = 0; i < 4; ++i) by[i] = hn::ShiftRight<3>(y[i]), bz[i] = hn::ShiftRight<3>(z[i]);
+    const Ints bx[3] = {hn::ShiftRight<3>(x[0]), hn::ShiftRight<3>(x[1]), hn::ShiftRight<3>(x[2])};
+    const NearPlanes near = find_near(bx[0], by[0], bz[0], hn::ShiftRight<3>(x[3]), by[3], bz[3]);
+    const auto pair = [&](int i, int j, int k) {
+      const Ints plane = near.found ? near.at(bx[i], by[j], bz[k]) : plane_of(bx[i], by[j], bz[k]);
+      pair_at(plane, x[i], x[i + 1], row_in(y[j], z[k]), &value[k][j][i], &value[k][j][i + 1]);
+    };
+    for (int inner = 0; inner < 4; ++inner) {
+      const int a = 1 + (inner & 1), b = 1 + (inner >> 1);
+      pair(0, a, b);
+      pair(2, a, b);
+      pair(1, 3 * (inner & 1), b);
+      pair(1, a, 3 * (inner >> 1));
+    }
+  }
+
+  HWY_INLINE CornerValues corners(const CellLanes& cell) const {
+    const Ints bx = hn::ShiftRight<3>(cell.x[0]);
+    const Ints by[2] = {hn::ShiftRight<3>(cell.y[0]), hn::ShiftRight<3>(cell.y[1])};
+    const Ints bz[2] = {hn::ShiftRight<3>(cell.z[0]), hn::ShiftRight<3>(cell.z[1])};
+    const NearPlanes near = find_near(bx, by[0], bz[0], bx, by[1], bz[1]);
+    CornerValues values;
+    for (int k = 0; k < 2; ++k) {
+      for (int j = 0; j < 2; ++j) {
+        const Ints plane = near.found ? near.at(bx, by[j], bz[k]) : plane_of(bx, by[j], bz[k]);
+        pair_at(plane, cell.x[0], cell.x[1], row_in(cell.y[j], cell.z[k]), &values.v[k][j][0],
+                &values.v[k][j][1]);
+      }
+    }
+    return values;
+  }
+
+ private:
   /// The planes of 2^3 bricks, in the lanes of one vector: where all lanes lie in them, as those
-  /// of neighbouring rays do, eight reads take the place of many gathers.
+  /// of neighbouring rays do, one small gather takes the place of many large ones.
   struct NearPlanes {
+    bool found = false;
     Int3 first;
     Ints table;
 
@@ -167,107 +210,63 @@ class BrickLanes {
     }
   };
 
-  /// Fills `near` when all bricks between the lower and the upper ones are within 2^3.
-  HWY_INLINE bool find_near(Ints low_x, Ints low_y, Ints low_z, Ints high_x, Ints high_y,
-                            Ints high_z, NearPlanes* near) const {
+  /// Found when all bricks between the lower and the upper ones are within 2^3.
+  HWY_INLINE NearPlanes find_near(Ints low_x, Ints low_y, Ints low_z, Ints high_x, Ints high_y,
+                                  Ints high_z) const {
+    NearPlanes near;
 #if SLAMBENCH_EIGHT_LANES
-    const Int3 first = {hn::GetLane(hn::MinOfLanes(i32, low_x)),
-                        hn::GetLane(hn::MinOfLanes(i32, low_y)),
-                        hn::GetLane(hn::MinOfLanes(i32, low_z))};
-    const Ints farthest =
-        hn::Max(hn::Max(hn::Sub(high_x, set_int(first.x)), hn::Sub(high_y, set_int(first.y))),
-                hn::Sub(high_z, set_int(first.z)));
-    if (!hn::AllTrue(i32, hn::Lt(farthest, set_int(2)))) return false;
-    const int step_x = first.x + 1 < bricks_.x ? 1 : 0;
-    const int step_y = first.y + 1 < bricks_.y ? bricks_.x : 0;
-    const int step_z = first.z + 1 < bricks_.z ? bricks_.x * bricks_.y : 0;
+    const int most = std::max({bricks_.x, bricks_.y, bricks_.z});
+    if (most > 256 || std::min({bricks_.x, bricks_.y, bricks_.z}) < 2) return near;
+    // Bytes of a lane hold the bricks along the axes: all axes are reduced at once.
+    const auto pack = [](Ints x, Ints y, Ints z) {
+      return hn::Or(hn::Or(x, hn::ShiftLeft<8>(y)), hn::ShiftLeft<16>(z));
+    };
+    const std::uint32_t low = least_bytes(pack(low_x, low_y, low_z));
+    const std::uint32_t high = ~least_bytes(hn::Not(pack(high_x, high_y, high_z)));
+    near.first = {std::min<int>(low & 0xff, bricks_.x - 2),
+                  std::min<int>(low >> 8 & 0xff, bricks_.y - 2),
+                  std::min<int>(low >> 16 & 0xff, bricks_.z - 2)};
+    // No byte is less than that of `low`: nothing is borrowed.
+    near.found = ((high - low) & 0xfefefe) == 0;
     const std::int32_t* corner =
-        planes_ + (static_cast<std::ptrdiff_t>(first.z) * bricks_.y + first.y) * bricks_.x +
-        first.x;
-    alignas(64) std::int32_t around[virtual_lanes] = {};
-    for (int i = 0; i < 8; ++i) {
-      around[i] = corner[(i & 1) * step_x + ((i >> 1) & 1) * step_y + (i >> 2) * step_z];
-    }
-    near->first = first;
-    near->table = hn::Load(i32, around);
-    return true;
+        planes_ +
+        (static_cast<std::ptrdiff_t>(near.first.z) * bricks_.y + near.first.y) * bricks_.x +
+        near.first.x;
+    const hn::CappedTag<std::int32_t, 8> eight;
+    const auto planes = hn::GatherIndex(eight, corner, hn::Load(eight, around_));
+#if HWY_TARGET == HWY_AVX3
+    near.table = hn::ZeroExtendVector(i32, planes);
 #else
-    (void)low_x, (void)low_y, (void)low_z, (void)high_x, (void)high_y, (void)high_z, (void)near;
-    return false;
+    near.table = planes;
 #endif
+#else
+    (void)low_x, (void)low_y, (void)low_z, (void)high_x, (void)high_y, (void)high_z;
+#endif
+    return near;
   }
 
-  /// The values at voxels of four positions along each axis, but for the corners and edges of that
-  /// cube.
-  HWY_INLINE void around(const Ints* x, const Ints* y, const Ints* z, Floats (*value)[4][4]) const {
-    Ints bx[4], by[4], bz[4];
-    for (int i = 0; i < 4; ++i) {
-      bx[i] = hn::ShiftRight<3>(x[i]);
-      by[i] = hn::ShiftRight<3>(y[i]);
-      bz[i] = hn::ShiftRight<3>(z[i]);
-    }
-    NearPlanes near;
-    const bool is_near = find_near(bx[0], by[0], bz[0], bx[3], by[3], bz[3], &near);
-    for_gradient([&](int i, int j, int k) {
-      const Ints plane = is_near ? near.at(bx[i], by[j], bz[k]) : plane_of(bx[i], by[j], bz[k]);
-      value[k][j][i] = hn::ConvertTo(f32, low_half(pair_at(plane, x[i], row_in(y[j], z[k]))));
-    });
+#if SLAMBENCH_EIGHT_LANES
+  /// The least of all lanes for each of their four bytes.
+  static HWY_INLINE std::uint32_t least_bytes(Ints packed) {
+    const hn::CappedTag<std::uint8_t, 16> u8;
+    const hn::CappedTag<std::uint32_t, 4> u32;
+    const auto lower = [](auto tag, auto v) {
+      const hn::Half<decltype(tag)> half;
+      return hn::Min(hn::LowerHalf(half, v), hn::UpperHalf(half, v));
+    };
+    const hn::Repartition<std::uint8_t, IntTag> all;
+#if HWY_TARGET == HWY_AVX3
+    const auto half = lower(all, hn::BitCast(all, packed));
+    auto least = lower(hn::Half<decltype(all)>(), half);
+#else
+    auto least = lower(all, hn::BitCast(all, packed));
+#endif
+    least = hn::Min(least, hn::BitCast(u8, hn::Shuffle1032(hn::BitCast(u32, least))));
+    least = hn::Min(least, hn::BitCast(u8, hn::Shuffle2301(hn::BitCast(u32, least))));
+    return hn::GetLane(hn::BitCast(u32, least));
   }
+#endif
 
-  HWY_INLINE CornerValues corners(const CellLanes& cell) const {
-    const Ints bx[2] = {hn::ShiftRight<3>(cell.x[0]), hn::ShiftRight<3>(cell.x[1])};
-    const Ints by[2] = {hn::ShiftRight<3>(cell.y[0]), hn::ShiftRight<3>(cell.y[1])};
-    const Ints bz[2] = {hn::ShiftRight<3>(cell.z[0]), hn::ShiftRight<3>(cell.z[1])};
-    const bool across_x = !hn::AllTrue(i32, hn::Eq(bx[0], bx[1]));
-    const bool across_y = !hn::AllTrue(i32, hn::Eq(by[0], by[1]));
-    const bool across_z = !hn::AllTrue(i32, hn::Eq(bz[0], bz[1]));
-    // Where the upper x is clamped to the lower one, both values of the pair are the lower.
-    const auto apart = hn::Ne(cell.x[0], cell.x[1]);
-
-    CornerValues values;
-    Ints plane[2][2], other[2][2];
-    if (!near_planes(bx, by, bz, across_x, plane, other)) {
-      planes_around(bx[0], by, bz, across_y, across_z, plane);
-      planes_around(bx[1], by, bz, across_y && across_x, across_z && across_x, other);
-    }
-    for (int z = 0; z < 2; ++z) {
-      for (int y = 0; y < 2; ++y) {
-        const Ints row = row_in(cell.y[y], cell.z[z]);
-        const Ints pair = pair_at(plane[z][y], cell.x[0], row);
-        const Ints lower = low_half(pair);
-        const Ints upper = across_x ? low_half(pair_at(other[z][y], cell.x[1], row))
-                                    : hn::IfThenElse(apart, hn::ShiftRight<16>(pair), lower);
-        values.v[z][y][0] = hn::ConvertTo(f32, lower);
-        values.v[z][y][1] = hn::ConvertTo(f32, upper);
-      }
-    }
-    return values;
-  }
-
- private:
-  /// The planes of the bricks of the cell's corners, [z][y], at the lower and upper x, where all
-  /// lanes lie within two bricks along each axis. False where they do not.
-  HWY_INLINE bool near_planes(const Ints* bx, const Ints* by, const Ints* bz, bool across_x,
-                              Ints (*plane)[2], Ints (*other)[2]) const {
-    NearPlanes near;
-    if (!find_near(bx[0], by[0], bz[0], bx[1], by[1], bz[1], &near)) return false;
-    for (int k = 0; k < 2; ++k) {
-      for (int j = 0; j < 2; ++j) {
-        plane[k][j] = near.at(bx[0], by[j], bz[k]);
-        if (across_x) other[k][j] = near.at(bx[1], by[j], bz[k]);
-      }
-    }
-    return true;
-  }
-  /// The planes of the bricks of the cell's corners, [z][y], at one x; equal ones are read once.
-  HWY_INLINE void planes_around(Ints bx, const Ints* by, const Ints* bz, bool across_y,
-                                bool across_z, Ints (*plane)[2]) const {
-    plane[0][0] = plane_of(bx, by[0], bz[0]);
-    plane[0][1] = across_y ? plane_of(bx, by[1], bz[0]) : plane[0][0];
-    plane[1][0] = across_z ? plane_of(bx, by[0], bz[1]) : plane[0][0];
-    plane[1][1] = plane[1][0];
-    if (across_y) plane[1][1] = across_z ? plane_of(bx, by[1], bz[1]) : plane[0][1];
-  }
   HWY_INLINE Ints brick_index(Ints bx, Ints by, Ints bz) const {
     const Ints row = hn::Add(hn::Mul(bz, set_int(bricks_.y)), by);
     return hn::Add(hn::Mul(row, set_int(bricks_.x)), bx);
@@ -275,23 +274,33 @@ class BrickLanes {
   HWY_INLINE Ints plane_of(Ints bx, Ints by, Ints bz) const {
     return hn::GatherIndex(i32, planes_, brick_index(bx, by, bz));
   }
+  /// Where a row starts in its plane.
   static HWY_INLINE Ints row_in(Ints y, Ints z) {
     const Ints low = set_int(BrickVolume::edge - 1);
-    return hn::Or(hn::ShiftLeft<6>(hn::And(z, low)), hn::ShiftLeft<3>(hn::And(y, low)));
+    const Ints row = hn::Or(hn::ShiftLeft<3>(hn::And(z, low)), hn::And(y, low));
+    return hn::Add(row, hn::ShiftLeft<3>(row));
   }
-  /// The value at x of a plane's row, and above it the next one.
-  HWY_INLINE Ints pair_at(Ints plane, Ints x, Ints row) const {
-    const Ints in_plane = hn::Or(row, hn::And(x, set_int(BrickVolume::edge - 1)));
-    const Ints value = hn::Add(hn::ShiftLeft<9>(plane), in_plane);
-    return hn::GatherOffset(i32, reinterpret_cast<const std::int32_t*>(values_),
-                            hn::Add(value, value));
+  /// The values at x and at the next x, which is the same at the volume's border.
+  HWY_INLINE void pair_at(Ints plane, Ints x, Ints next, Ints row, Floats* first,
+                          Floats* second) const {
+    static_assert(BrickVolume::plane_values == 512 + 64 && BrickVolume::row_values == 9);
+    const Ints start = hn::Add(hn::ShiftLeft<9>(plane), hn::ShiftLeft<6>(plane));
+    const Ints in_plane = hn::Add(row, hn::And(x, set_int(BrickVolume::edge - 1)));
+    const Ints value = hn::Add(start, in_plane);
+    const Ints pair = hn::GatherOffset(i32, reinterpret_cast<const std::int32_t*>(values_),
+                                       hn::Add(value, value));
+    const Ints lower = low_half(pair);
+    *first = hn::ConvertTo(f32, lower);
+    *second = hn::ConvertTo(f32, hn::IfThenElse(hn::Ne(x, next), hn::ShiftRight<16>(pair), lower));
   }
 
   const std::int32_t* planes_;
   const std::int16_t* values_;
-  const std::uint8_t* occupancy_;
+  const std::uint8_t* levels_;
+  int skip_level_;
   Int3 bricks_, n_;
   Float3 size_m_;
+  alignas(32) std::int32_t around_[8];  ///< from a brick to those of the 2^3 above it
 };
 
 /// slambench::interpolate at the cell.
@@ -361,147 +370,199 @@ HWY_INLINE void clip_axis(float origin, Floats direction, float size, Floats* ne
   *near_t = hn::IfThenElse(along, *near_t, nearer);
 }
 
-/// Whether the sample of any active lane can be other than +1.
-template <class Map>
-HWY_INLINE bool can_be_other(const Map& map, const CellBase& cell, FloatMask active) {
-  const auto occupied = hn::Ne(map.occupied(cell), hn::Zero(i32));
-  return !hn::AllFalse(i32, hn::And(occupied, hn::RebindMask(i32, active)));
-}
-
-/// slambench::find_surface of the active lanes; the hits' lanes of `hit` are set.
-template <class Map>
-HWY_INLINE FloatMask find_surface(const Map& map, Float3 origin, Vec3 direction,
-                                  const RaycastParameters& p, float start_m, FloatMask active,
-                                  Vec3* hit) {
-  const Int3 n = map.resolution();
-  const Float3 size_m = map.size_m();
-  Floats t = set(p.near_m), far_t = set(p.far_m);
-  clip_axis(origin.x, direction.x, size_m.x, &t, &far_t);
-  clip_axis(origin.y, direction.y, size_m.y, &t, &far_t);
-  clip_axis(origin.z, direction.z, size_m.z, &t, &far_t);
-  active = hn::And(active, hn::Lt(t, far_t));
-
-  const Vec3 start = set(origin);
-  const Floats zero = hn::Zero(f32);
-  const Floats slow_below = set(p.slow_below), small_step = set(p.small_step_m);
-  Floats step = set(p.large_step_m), previous = set(1.0f), previous_t = t, hit_t = zero;
-  FloatMask hits = hn::Lt(zero, zero);
+/// slambench::find_surface of a packet of rays in progress.
+struct March {
+  Vec3 direction;
+  Floats t, far_t, step, previous, previous_t;
+  FloatMask active, hits;
   bool first = true, skipped = false;
+  /// At the crossing.
+  Floats hit_t, hit_step, hit_value, hit_previous;
+};
+
+template <class Map>
+HWY_INLINE March start_march(const Map& map, Float3 origin, Vec3 direction,
+                             const RaycastParameters& p, float start_m, FloatMask active) {
+  const Float3 size_m = map.size_m();
+  const Floats zero = hn::Zero(f32);
+  March m;
+  m.direction = direction;
+  m.t = set(p.near_m), m.far_t = set(p.far_m);
+  clip_axis(origin.x, direction.x, size_m.x, &m.t, &m.far_t);
+  clip_axis(origin.y, direction.y, size_m.y, &m.t, &m.far_t);
+  clip_axis(origin.z, direction.z, size_m.z, &m.t, &m.far_t);
+  m.active = hn::And(active, hn::Lt(m.t, m.far_t));
+  m.step = set(p.large_step_m), m.previous = set(1.0f), m.previous_t = m.t;
+  m.hits = hn::Lt(zero, zero);
+  m.hit_t = m.hit_step = m.hit_value = m.hit_previous = zero;
   if constexpr (Map::skips) {
-    // No sample before the start depth but +1: the march adds up the same depths without them.
-    while (!hn::AllFalse(f32, active) &&
-           hn::AllTrue(f32, hn::Or(hn::Not(active), hn::Lt(hn::Add(t, step), set(start_m))))) {
-      skipped = true;
-      previous_t = t;
-      t = hn::Add(t, step);
-      active = hn::And(active, hn::Lt(t, far_t));
+    // No sample before the start depth is needed: the march adds up the same depths without them.
+    while (
+        !hn::AllFalse(f32, m.active) &&
+        hn::AllTrue(f32, hn::Or(hn::Not(m.active), hn::Lt(hn::Add(m.t, m.step), set(start_m))))) {
+      m.skipped = true;
+      m.previous_t = m.t;
+      m.t = hn::Add(m.t, m.step);
+      m.active = hn::And(m.active, hn::Lt(m.t, m.far_t));
     }
-    first = !skipped;
+    m.first = !m.skipped;
   }
-  while (!hn::AllFalse(f32, active)) {
-    CellBase cell = cell_base(n, size_m, add(start, mul(direction, t)));
-    if constexpr (Map::skips) {
-      // In the band there is nothing to skip.
-      const bool in_band = !hn::AllFalse(f32, hn::And(active, hn::Lt(previous, set(0.99f))));
-      if (!in_band && !can_be_other(map, cell, active)) {
-        // Every sample here is +1: the march goes on as if each had been taken.
-        first = false;
-        skipped = true;
-        previous_t = t;
-        t = hn::Add(t, step);
-        active = hn::And(active, hn::Lt(t, far_t));
-        continue;
-      }
-    }
-    const Floats value = interpolate(map, cell);
-    if (first) {
-      active = hn::And(active, hn::Gt(value, zero));  // else the ray starts behind a surface
-      previous = value;
-      first = false;
-    }
-    const FloatMask crossing = hn::And(active, hn::Lt(value, zero));
-    if (!hn::AllFalse(f32, crossing)) {
-      if (skipped) {
-        previous = interpolate(map, cell_base(n, size_m, add(start, mul(direction, previous_t))));
-      }
-      const Floats back = hn::Div(hn::Mul(step, value), hn::Sub(previous, value));
-      hit_t = hn::IfThenElse(crossing, hn::Add(t, back), hit_t);
-      hits = hn::Or(hits, crossing);
-      active = hn::AndNot(crossing, active);
-    }
-    step = hn::IfThenElse(hn::Lt(value, slow_below), small_step, step);
-    skipped = false;
-    previous = value;
-    t = hn::IfThenElse(active, hn::Add(t, step), t);  // lanes that are done stay near the others
-    active = hn::And(active, hn::Lt(t, far_t));
-  }
-  *hit = add(start, mul(direction, hit_t));
-  return hits;
+  return m;
 }
 
-/// A packet of rays: columns x columns' worth of lanes, from pixel (x, y) on.
+/// One sample of a march that has active lanes.
+template <class Map>
+HWY_INLINE void go_on(const Map& map, Float3 origin, const RaycastParameters& p, March* march) {
+  March& m = *march;
+  const auto cell_at = [&](Floats t) {
+    return cell_base(map.resolution(), map.size_m(), add(set(origin), mul(m.direction, t)));
+  };
+  const CellBase cell = cell_at(m.t);
+  const Floats slow_below = set(p.slow_below);
+  if constexpr (Map::skips) {
+    // In the band there is nothing to skip.
+    if (hn::AllFalse(f32, hn::And(m.active, hn::Lt(m.previous, slow_below)))) {
+      const auto taken = hn::AndNot(map.skippable(cell), hn::RebindMask(i32, m.active));
+      if (hn::AllFalse(i32, taken)) {
+        // No sample here would change the step or be a crossing.
+        m.first = false;
+        m.skipped = true;
+        m.previous_t = m.t;
+        m.t = hn::Add(m.t, m.step);
+        m.active = hn::And(m.active, hn::Lt(m.t, m.far_t));
+        return;
+      }
+    }
+  }
+  const Floats value = interpolate(map, cell), zero = hn::Zero(f32);
+  if (m.first) {
+    m.active = hn::And(m.active, hn::Gt(value, zero));  // else the ray starts behind a surface
+    m.previous = value;
+    m.first = false;
+  }
+  const FloatMask crossing = hn::And(m.active, hn::Lt(value, zero));
+  if (m.skipped && !hn::AllFalse(f32, crossing))
+    m.previous = interpolate(map, cell_at(m.previous_t));
+  m.hit_t = hn::IfThenElse(crossing, m.t, m.hit_t);
+  m.hit_step = hn::IfThenElse(crossing, m.step, m.hit_step);
+  m.hit_value = hn::IfThenElse(crossing, value, m.hit_value);
+  m.hit_previous = hn::IfThenElse(crossing, m.previous, m.hit_previous);
+  m.hits = hn::Or(m.hits, crossing);
+  m.active = hn::AndNot(crossing, m.active);
+  m.step = hn::IfThenElse(hn::Lt(value, slow_below), set(p.small_step_m), m.step);
+  m.skipped = false;
+  m.previous = value;
+  // Lanes that are done stay near the others.
+  m.t = hn::IfThenElse(m.active, hn::Add(m.t, m.step), m.t);
+  m.active = hn::And(m.active, hn::Lt(m.t, m.far_t));
+}
+
+HWY_INLINE Vec3 hit_of(const March& m, Float3 origin) {
+  const Floats back =
+      hn::Div(hn::Mul(m.hit_step, m.hit_value), hn::Sub(m.hit_previous, m.hit_value));
+  return add(set(origin), mul(m.direction, hn::Add(m.hit_t, back)));
+}
+
+/// A packet of rays: columns x columns' worth of lanes.
 constexpr int packet_width() { return lanes() < 4 ? lanes() : 4; }
 constexpr int packet_height() { return lanes() / packet_width(); }
 
-template <class Map>
-HWY_INLINE void raycast_packet(const Map& map, const RaycastParameters& p, const RaycastOutput& out,
-                               int x0, int y0, int y_end) {
-  const Ints lane = hn::Iota(i32, 0);
-  const Ints column = hn::And(lane, set_int(packet_width() - 1));
-  const Ints row = hn::ShiftRight < packet_width() == 4 ? 2 : packet_width() == 2 ? 1 : 0 > (lane);
-  const Ints x = hn::Add(column, set_int(x0)), y = hn::Add(row, set_int(y0));
-  FloatMask active =
-      hn::RebindMask(f32, hn::And(hn::Lt(x, set_int(out.size.width)), hn::Lt(y, set_int(y_end))));
-  const Vec3 ray = {hn::Div(hn::Sub(hn::ConvertTo(f32, x), set(p.camera.cx)), set(p.camera.fx)),
-                    hn::Div(hn::Sub(hn::ConvertTo(f32, y), set(p.camera.cy)), set(p.camera.fy)),
-                    set(1.0f)};
-  const int width = std::min(packet_width(), out.size.width - x0);
-  const int height = std::min(packet_height(), y_end - y0);
-  const auto pixel = [&](int dx, int dy) {
-    return static_cast<std::size_t>(y0 + dy) * static_cast<std::size_t>(out.size.width) +
-           static_cast<std::size_t>(x0 + dx);
-  };
+/// The pixels of a packet, from (x, y) on.
+struct Packet {
+  int x = 0, y = 0, width = 0, height = 0;  ///< without what lies beyond the image
   alignas(64) std::int32_t wanted[virtual_lanes] = {};
-  for (int dy = 0; dy < height; ++dy) {
-    for (int dx = 0; dx < width; ++dx) {
-      wanted[dy * packet_width() + dx] =
-          !out.only_misses || out.normals[pixel(dx, dy)].x == invalid_normal ? 1 : 0;
+
+  Packet(const RaycastOutput& out, int x0, int y0, int y_end)
+      : x(x0),
+        y(y0),
+        width(std::min(packet_width(), out.size.width - x0)),
+        height(std::min(packet_height(), y_end - y0)) {
+    for_each([&](int lane, int dx, int dy) {
+      wanted[lane] =
+          !out.only_misses || out.normals[pixel(out, dx, dy)].x == invalid_normal ? 1 : 0;
+    });
+  }
+
+  template <class F>
+  HWY_INLINE void for_each(const F& f) const {
+    for (int dy = 0; dy < height; ++dy) {
+      for (int dx = 0; dx < width; ++dx) f(dy * packet_width() + dx, dx, dy);
     }
   }
-  active = hn::And(active, hn::RebindMask(f32, hn::Ne(hn::Load(i32, wanted), hn::Zero(i32))));
-  if (hn::AllFalse(f32, active)) return;
+  std::size_t pixel(const RaycastOutput& out, int dx, int dy) const {
+    return static_cast<std::size_t>(y + dy) * static_cast<std::size_t>(out.size.width) +
+           static_cast<std::size_t>(x + dx);
+  }
+  HWY_INLINE FloatMask active() const {
+    return hn::RebindMask(f32, hn::Ne(hn::Load(i32, wanted), hn::Zero(i32)));
+  }
+  /// With depth 1.
+  HWY_INLINE Vec3 rays(Intrinsics camera) const {
+    const Ints lane = hn::Iota(i32, 0);
+    constexpr int shift = packet_width() == 4 ? 2 : packet_width() == 2 ? 1 : 0;
+    const Ints px = hn::Add(hn::And(lane, set_int(packet_width() - 1)), set_int(x));
+    const Ints py = hn::Add(hn::ShiftRight<shift>(lane), set_int(y));
+    return {hn::Div(hn::Sub(hn::ConvertTo(f32, px), set(camera.cx)), set(camera.fx)),
+            hn::Div(hn::Sub(hn::ConvertTo(f32, py), set(camera.cy)), set(camera.fy)), set(1.0f)};
+  }
+  void write(const RaycastOutput& out, Vec3 vertex, Vec3 normal) const {
+    Float3 vertices[virtual_lanes], normals[virtual_lanes];
+    store(vertex, vertices);
+    store(normal, normals);
+    for_each([&](int lane, int dx, int dy) {
+      if (wanted[lane] == 0) return;
+      out.vertices[pixel(out, dx, dy)] = vertices[lane];
+      out.normals[pixel(out, dx, dy)] = normals[lane];
+    });
+  }
+};
 
+template <class Map>
+HWY_INLINE void finish_packet(const Map& map, Float3 origin, const RaycastOutput& out,
+                              const Packet& packet, const March& march) {
   const Vec3 none = {hn::Zero(f32), hn::Zero(f32), hn::Zero(f32)};
   Vec3 vertex = none, normal = set(Float3{invalid_normal, 0.0f, 0.0f});
-  Vec3 hit;
-  const FloatMask hits =
-      find_surface(map, p.T_volume_camera.translation, rotate(p.T_volume_camera, ray), p,
-                   out.start != nullptr ? out.start->at(x0, y0) : 0, active, &hit);
-  if (!hn::AllFalse(f32, hits)) {
-    vertex = select(hits, hit, none);
+  if (!hn::AllFalse(f32, march.hits)) {
+    vertex = select(march.hits, hit_of(march, origin), none);
     const Vec3 slope = gradient(map, vertex);
     const Floats norm = length(slope);
-    const FloatMask sloped = hn::And(hits, hn::Gt(norm, hn::Zero(f32)));
+    const FloatMask sloped = hn::And(march.hits, hn::Gt(norm, hn::Zero(f32)));
     normal = select(sloped, mul(slope, hn::Div(set(1.0f), norm)), normal);
   }
-  Float3 vertices[virtual_lanes], normals[virtual_lanes];
-  store(vertex, vertices);
-  store(normal, normals);
-  for (int dy = 0; dy < height; ++dy) {
-    for (int dx = 0; dx < width; ++dx) {
-      const int i = dy * packet_width() + dx;
-      if (wanted[i] == 0) continue;
-      out.vertices[pixel(dx, dy)] = vertices[i];
-      out.normals[pixel(dx, dy)] = normals[i];
-    }
+  packet.write(out, vertex, normal);
+}
+
+/// Two packets side by side: a sample is a long chain of dependent steps, so that the processor
+/// works on one packet's while it waits for the other's.
+template <class Map>
+HWY_INLINE void raycast_pair(const Map& map, const RaycastParameters& p, const RaycastOutput& out,
+                             int x0, int y0, int y_end) {
+  const Float3 origin = p.T_volume_camera.translation;
+  const Packet packets[2] = {Packet(out, x0, y0, y_end),
+                             Packet(out, x0 + packet_width(), y0, y_end)};
+  const auto started = [&](const Packet& packet) {
+    const float start_m = out.start != nullptr ? out.start->at(packet.x, packet.y) : 0;
+    return start_march(map, origin, rotate(p.T_volume_camera, packet.rays(p.camera)), p, start_m,
+                       packet.active());
+  };
+  March first = started(packets[0]), second = started(packets[1]);
+  bool going = true;
+  while (going) {
+    const bool first_goes = !hn::AllFalse(f32, first.active);
+    const bool second_goes = !hn::AllFalse(f32, second.active);
+    if (first_goes) go_on(map, origin, p, &first);
+    if (second_goes) go_on(map, origin, p, &second);
+    going = first_goes || second_goes;
   }
+  finish_packet(map, origin, out, packets[0], first);
+  finish_packet(map, origin, out, packets[1], second);
 }
 
 template <class Map>
 void raycast(const Map& map, const RaycastParameters& p, const RaycastOutput& out, Rows rows) {
   for (int y = rows.begin; y < rows.end; y += packet_height()) {
-    for (int x = 0; x < out.size.width; x += packet_width()) {
-      raycast_packet(map, p, out, x, y, rows.end);
+    for (int x = 0; x < out.size.width; x += 2 * packet_width()) {
+      raycast_pair(map, p, out, x, y, rows.end);
     }
   }
 }
@@ -513,7 +574,7 @@ void raycast_grid(const GridView& map, const RaycastParameters& p, const Raycast
 
 void raycast_bricks(const BrickView& map, const RaycastParameters& p, const RaycastOutput& out,
                     Rows rows) {
-  raycast(BrickLanes(map), p, out, rows);
+  raycast(BrickLanes(map, skip_level(p)), p, out, rows);
 }
 
 /// slambench::shade.
@@ -579,7 +640,8 @@ bool raycast_reaches(const GridView& map) {
 
 bool raycast_reaches(const BrickView& map) {
   const std::size_t most = std::numeric_limits<std::int32_t>::max();
-  return map.volume->planes_used() <= most / PlanePool::plane_bytes && map.volume->count() <= most;
+  constexpr std::size_t plane_bytes = BrickVolume::plane_values * sizeof(std::int16_t);
+  return map.volume->planes_used() <= most / plane_bytes && map.volume->count() <= most;
 }
 
 }  // namespace slambench

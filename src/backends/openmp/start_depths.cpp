@@ -88,6 +88,13 @@ class Marker {
 
 }  // namespace
 
+int skip_level(const RaycastParameters& view) {
+  // Rounding of the interpolation is far below this.
+  constexpr double margin = 1e-4;
+  const double least = (std::max(0.0, static_cast<double>(view.slow_below)) + margin) * tsdf_scale;
+  return BrickVolume::level_of(0) + static_cast<int>(std::ceil(least / 256));
+}
+
 void StartDepths::build(const BrickView& map, const RaycastParameters& view, Size size,
                         const Parallel& parallel) {
   constexpr int edge = BrickVolume::edge;
@@ -105,14 +112,19 @@ void StartDepths::build(const BrickView& map, const RaycastParameters& view, Siz
     return static_cast<float>(end) + margin - 0.5f;
   };
 
+  const int level = skip_level(view);
+  const bool skips = level <= BrickVolume::free_level;
   const int planes = static_cast<int>(volume.planes_used());
   const int grain = std::max(1, (planes + parts - 1) / parts);
   parts_.resize(parts);
-  for (std::vector<float>& part : parts_) part.assign(tiles_.count(), infinity);
+  for (std::vector<float>& part : parts_) {
+    part.assign(tiles_.count(), skips ? infinity : -infinity);
+  }
   parallel.for_chunks(planes, grain, [&](int begin, int end) {
     Marker marker(size, tiles_, view.near_m, &parts_[static_cast<std::size_t>(begin / grain)]);
     for (int plane = std::max(1, begin); plane < end; ++plane) {
       const int brick = volume.owner(static_cast<std::size_t>(plane));
+      if (volume.level(static_cast<std::size_t>(brick)) >= level) continue;
       const int bx = brick % bricks.x, by = brick / bricks.x % bricks.y;
       const int bz = brick / bricks.x / bricks.y;
       const float x[2] = {low(bx) * voxel_m.x, high(bx, map.resolution.x) * voxel_m.x};

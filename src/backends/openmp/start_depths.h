@@ -10,11 +10,15 @@
 
 namespace slambench {
 
-/// Per tile of a view, a depth before which every sample of the volume is +1: the least depth of
-/// the bricks with distances of their own, projected into the image.
+/// The level (BrickVolume::level_of) from which on distances need not be sampled: no sample between
+/// such distances makes a ray slower or ends it. Above all levels where there is none.
+int skip_level(const RaycastParameters& view);
+
+/// Per tile of a view, a depth before which no sample of the volume is needed: the least depth of
+/// the bricks with distances below the skip level, projected into the image.
 class StartDepths {
  public:
-  static constexpr int tile = 8;  ///< pixels
+  static constexpr int tile = 4;  ///< pixels
 
   void build(const BrickView& map, const RaycastParameters& view, Size size,
              const Parallel& parallel);

@@ -36,7 +36,7 @@ void integrate_bricks(BrickVolume& volume, Float3 voxel_m, const float* depth_m,
     volume.reserve(1);
     volume.store(brick, tsdf, weights);
   }
-  volume.refresh_occupancy();
+  volume.refresh();
 }
 
 }  // namespace
