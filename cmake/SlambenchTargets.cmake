@@ -61,5 +61,6 @@ function(slambench_test name)
                                               GTest::gmock GTest::gtest_main)
   # Tests share the cores: a thread that has nothing to do shall not keep one busy.
   gtest_discover_tests(${name}_tests TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT 600 ENVIRONMENT OMP_WAIT_POLICY=passive)
+                       PROPERTIES TIMEOUT 600 ENVIRONMENT
+    "OMP_WAIT_POLICY=passive;LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/lsan.supp:print_suppressions=0")
 endfunction()

@@ -26,8 +26,8 @@ struct AllParameters {
   AllParameters& operator=(const AllParameters&) = delete;
 
   std::vector<ParameterList> lists() {
-    return {run.describe(), source.describe(), backend.describe(), output.describe(),
-            kinectfusion.describe()};
+    return {run.describe(),    source.describe(),       backend.describe(),
+            output.describe(), kinectfusion.describe(), backend.opencl.describe()};
   }
 };
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "backends/cuda/cuda_backend.h"
+#include "backends/opencl/opencl.h"
 #include "backends/openmp/openmp_backend.h"
 #include "backends/serial/serial_backend.h"
 #include "core/error.h"
@@ -20,15 +21,16 @@ std::string lower(std::string_view text) {
   return letters;
 }
 
-/// A device is named by its index or a part of its name, whatever the case of letters; not named,
-/// it is the first. None: there is no such device.
+/// A device is named by its index or a part of its name, whatever the case of letters; a number is
+/// an index. Not named, it is the first. None: there is no such device.
 std::optional<int> device_index(const std::vector<std::string>& devices,
                                 const std::string& wanted) {
+  if (wanted.empty()) return 0;
+  const bool is_index = wanted.find_first_not_of("0123456789") == std::string::npos;
   int index = 0;
   for (const std::string& device : devices) {
-    if (wanted == std::to_string(index) || lower(device).find(lower(wanted)) != std::string::npos) {
-      return index;
-    }
+    const bool is_part = lower(device).find(lower(wanted)) != std::string::npos;
+    if (is_index ? wanted == std::to_string(index) : is_part) return index;
     ++index;
   }
   return std::nullopt;
@@ -39,6 +41,16 @@ constexpr BackendEntry table[] = {
      [] { return std::vector<std::string>{SerialBackend().device()}; },
      [](const BackendOptions&) -> std::unique_ptr<Backend> {
        return std::make_unique<SerialBackend>();
+     }},
+    {"opencl", "any device with a driver for OpenCL 1.2",
+     [] {
+       const std::string obstacle = opencl_obstacle();
+       return Availability{obstacle.empty(), obstacle};
+     },
+     opencl_devices,
+     [](const BackendOptions& options) {
+       return make_opencl_backend(device_index(opencl_devices(), options.device).value_or(0),
+                                  options.opencl);
      }},
     {"openmp", "threads and SIMD on the host", [] { return Availability{}; },
      [] { return std::vector<std::string>{OpenmpBackend(1).device()}; },

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "backends/backend.h"
+#include "backends/opencl/opencl_parameters.h"
 #include "core/parameter.h"
 
 namespace slambench {
@@ -24,6 +25,7 @@ struct BackendOptions {
   std::string backend = "serial";  ///< a name in the table
   std::string device;              ///< index or a part of the name; empty: the first
   int threads = 0;                 ///< of a host backend; 0: all
+  OpenclParameters opencl;         ///< has a list of its own
 
   ParameterList describe();
 };
@@ -38,6 +40,8 @@ struct BackendEntry {
 };
 
 /// Every backend this project has, slowest first, whether built in or not: what is not says so.
+/// `opencl` stands before `openmp`, which is quicker on the same processor and always there: nobody
+/// who did not ask for OpenCL has its drivers loaded, with their threads and signal handlers.
 std::span<const BackendEntry> backend_table();
 
 /// Throws UsageError for an unknown name (and lists the known), UnavailableError with the reason

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "backends/registry.h"
 #include "config/nearest.h"
 #include "core/error.h"
@@ -11,13 +13,13 @@
 namespace slambench {
 namespace {
 
-/// The table of backends runs from slow to fast.
+/// The table of backends runs from slow to fast; those that are slower are not asked.
 std::string quickest_backend() {
-  std::string_view quickest;
-  for (const BackendEntry& entry : backend_table()) {
-    if (entry.availability().available) quickest = entry.name;
-  }
-  return std::string(quickest);
+  const auto backends = backend_table();
+  const auto quickest = std::find_if(backends.rbegin(), backends.rend(), [](const auto& entry) {
+    return entry.availability().available;
+  });
+  return std::string(quickest->name);
 }
 
 }  // namespace

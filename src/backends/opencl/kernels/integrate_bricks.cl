@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+
+// A group updates one brick of the list. A brick whose distances are all +1 keeps no plane of them,
+// one whose weights are all equal keeps that number (-1 - weight) instead of a plane.
+// counters[0] and [1]: planes of distances and of weights in use.
+
+#define LOAD_SHORTS(p) TO_INTS(LOAD(p))
+
+// A new plane for a brick's distances; samples whose lower corner lies in it or below see it.
+inline int take_plane(int brick, Int3 bricks, global int* counters, global int* planes,
+                      global int* owners, global uchar* occupied) {
+  const int plane = atomic_inc(&counters[0]);
+  planes[brick] = plane;
+  owners[plane] = brick;
+  const int bx = brick % bricks.x, by = brick / bricks.x % bricks.y;
+  const int bz = brick / bricks.x / bricks.y;
+  for (int z = max(0, bz - 1); z <= bz; ++z) {
+    for (int y = max(0, by - 1); y <= by; ++y) {
+      for (int x = max(0, bx - 1); x <= bx; ++x) occupied[(z * bricks.y + y) * bricks.x + x] = 1;
+    }
+  }
+  return plane;
+}
+
+KERNEL integrate_bricks(global const int* varied, global int* counters,
+                        global int* distance_planes, global int* weight_planes,
+                        global short* distances, global short* weights, global int* owners,
+                        global uchar* occupied, Int3 bricks, Float3 voxel_m,
+                        global const float* depth_m, Size size, IntegrateParameters p) {
+  local short new_tsdf[BRICK_VOXELS], new_weights[BRICK_VOXELS];
+  local int differs, changed, least_weight, greatest_weight, plane_of_tsdf, plane_of_weights;
+  const int brick = varied[get_group_id(0)];
+  const int first_x = brick % bricks.x * EDGE, first_y = brick / bricks.x % bricks.y * EDGE;
+  const int first_z = brick / bricks.x / bricks.y * EDGE;
+  const int plane = distance_planes[brick], weight_plane = weight_planes[brick];
+  if (get_local_id(0) == 0) {
+    differs = changed = greatest_weight = 0;
+    least_weight = INT_MAX;
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+
+  Ints any_differs = (Ints)(0), any_changed = (Ints)(0);
+  Ints least = (Ints)(INT_MAX), greatest = (Ints)(0);
+  for (int i = get_local_id(0) * LANES; i < BRICK_VOXELS; i += GROUP * LANES) {
+    const Ints voxel = i + IOTA;
+    const Vec3 center = apply(
+        p.T_camera_volume, vec3(center_axis(first_x + (voxel & 7), voxel_m.x),
+                                center_axis(first_y + (voxel >> 3 & 7), voxel_m.y),
+                                center_axis(first_z + (voxel >> 6), voxel_m.z)));
+    const Ints old_tsdf = LOAD_SHORTS(distances + plane * BRICK_VOXELS + i);
+    Ints old_weight = (Ints)(-1 - weight_plane);
+    if (weight_plane >= 0) old_weight = LOAD_SHORTS(weights + weight_plane * BRICK_VOXELS + i);
+    Ints tsdf = old_tsdf, weight = old_weight;
+    integrate_lanes(center, depth_m, size, p, &tsdf, &weight);
+    any_changed |= (tsdf ^ old_tsdf) | (weight ^ old_weight);
+    any_differs |= tsdf ^ FREE_SPACE;
+    least = min(least, weight);
+    greatest = max(greatest, weight);
+    STORE(TO_SHORTS(tsdf), new_tsdf + i);
+    STORE(TO_SHORTS(weight), new_weights + i);
+  }
+#define NOTE(lane, i)                        \
+  if (any_changed lane) atomic_or(&changed, 1); \
+  if (any_differs lane) atomic_or(&differs, 1); \
+  atomic_min(&least_weight, least lane);     \
+  atomic_max(&greatest_weight, greatest lane);
+  EVERY(NOTE)
+#undef NOTE
+  barrier(CLK_LOCAL_MEM_FENCE);
+
+  if (get_local_id(0) == 0) {
+    plane_of_tsdf = plane;
+    plane_of_weights = weight_plane;
+    if (changed && plane == 0 && differs) {
+      plane_of_tsdf = take_plane(brick, bricks, counters, distance_planes, owners, occupied);
+    }
+    if (changed && weight_plane < 0) {
+      plane_of_weights =
+          least_weight == greatest_weight ? -1 - least_weight : atomic_inc(&counters[1]);
+      weight_planes[brick] = plane_of_weights;
+    }
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+
+  if (!changed) return;
+  for (int i = get_local_id(0) * LANES; i < BRICK_VOXELS; i += GROUP * LANES) {
+    if (plane_of_tsdf != 0) STORE(LOAD(new_tsdf + i), distances + plane_of_tsdf * BRICK_VOXELS + i);
+    if (plane_of_weights >= 0) {
+      STORE(LOAD(new_weights + i), weights + plane_of_weights * BRICK_VOXELS + i);
+    }
+  }
+}

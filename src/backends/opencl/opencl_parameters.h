@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "core/parameter.h"
+
+namespace slambench {
+
+/// How a kernel is laid out on a device: work-items of a group, elements (lanes) that a work-item
+/// computes at once, and packets of so many elements that it takes one after the other.
+struct KernelLayout {
+  int group = 0, lanes = 0, per_item = 0;
+};
+
+/// The design space of the OpenCL kernels; the same results everywhere in it.
+struct OpenclParameters {
+  static constexpr std::size_t kernels = 19;
+
+  /// Group, lanes, packets per work-item of each kernel; 0: what suits the device.
+  std::array<std::array<int, 3>, kernels> layouts{};
+  std::string build_options;
+
+  ParameterList describe();
+  /// Of kernels/NAME.cl, with the defaults of the kind of device filled in. Throws UsageError for
+  /// one that no kernel can have.
+  KernelLayout layout(std::string_view name, bool on_processor) const;
+};
+
+}  // namespace slambench

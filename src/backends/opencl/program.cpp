@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include "backends/opencl/program.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <filesystem>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "backends/opencl/kernels/kernel_sources.h"
+#include "backends/opencl/queue.h"
+#include "core/error.h"
+#include "io/files.h"
+
+namespace slambench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What every kernel builds on, in this order; `NAME.cl` follows.
+constexpr std::string_view shared[] = {"types", "lanes",       "maths",           "volume",
+                                       "sums",  "track_point", "integrate_voxels"};
+
+std::string source_of(const std::string& name) {
+  std::string text;
+  for (const std::string_view part : shared) text += kernel_source(part);
+  return text.append(kernel_source(name));
+}
+
+std::string options_of(const OpenclDevice& device, const KernelLayout& layout,
+                       const std::string& macros, const std::string& further) {
+  std::string options = fmt::format("-cl-std=CL1.2 -DGROUP={} -DLANES={} -DPER_ITEM={}",
+                                    layout.group, layout.lanes, layout.per_item);
+  if (device.divides_exactly) options += " -cl-fp32-correctly-rounded-divide-sqrt";
+  if (!macros.empty()) options += " " + macros;
+  if (!further.empty()) options += " " + further;
+  return options;
+}
+
+std::string cache_file(const OpenclDevice& device, const std::string& options,
+                       const std::string& source) {
+  const std::string key = fmt::format("{}\n{}\n{}\n{}\n{}", device.platform, device.name,
+                                      device.driver, options, source);
+  return fmt::format("{}/opencl/{:016x}.bin", cache_folder(), XXH3_64bits(key.data(), key.size()));
+}
+
+/// The program from the cache; a null one when it is not there or does not fit any more.
+cl::Program cached(const cl::Context& context, const cl::Device& device, const std::string& file,
+                   const std::string& options) {
+  try {
+    if (!fs::is_regular_file(file)) return {};
+    const std::string bytes = read_file(file);
+    cl::Program program(context, {device}, {{bytes.begin(), bytes.end()}});
+    program.build({device}, options.c_str());
+    return program;
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+/// A cache that cannot be written costs time, nothing else.
+void keep(const cl::Program& program, const std::string& file) {
+  try {
+    const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();
+    if (binaries.size() != 1 || binaries[0].empty()) return;
+    fs::create_directories(fs::path(file).parent_path());
+    write_file(file, {reinterpret_cast<const char*>(binaries[0].data()), binaries[0].size()});
+  } catch (const std::exception&) {
+  }
+}
+
+cl::Program compiled(const cl::Context& context, const OpenclDevice& device,
+                     const std::string& name, const std::string& source,
+                     const std::string& options) {
+  cl::Program program(context, source);
+  try {
+    program.build({device.device}, options.c_str());
+  } catch (const cl::BuildError& error) {
+    std::string log;
+    for (const auto& [of, text] : error.getBuildLog()) log += text;
+    throw Error(ExitStatus::failed,
+                fmt::format("opencl: {}.cl does not build on {} with '{}'; the compiler says:\n{}",
+                            name, device.name, options, log));
+  }
+  return program;
+}
+
+}  // namespace
+
+Programs::Programs(cl::Context context, OpenclDevice device, OpenclParameters parameters)
+    : context_(std::move(context)),
+      device_(std::move(device)),
+      parameters_(std::move(parameters)) {}
+
+DeviceKernel& Programs::get(const std::string& name, const std::string& macros) {
+  const std::string key = name + " " + macros;
+  const auto it = kernels_.find(key);
+  if (it != kernels_.end()) return it->second;
+  return kernels_.emplace(key, build(name, macros)).first->second;
+}
+
+DeviceKernel Programs::build(const std::string& name, const std::string& macros) const {
+  DeviceKernel result;
+  result.layout = parameters_.layout(name, device_.is_processor);
+  const std::string options = options_of(device_, result.layout, macros, parameters_.build_options);
+  const std::string source = source_of(name);
+  const std::string file = cache_file(device_, options, source);
+  with_opencl_errors(device_.name, [&] {
+    cl::Program program = cached(context_, device_.device, file, options);
+    if (program() == nullptr) {
+      program = compiled(context_, device_, name, source, options);
+      keep(program, file);
+    }
+    result.kernel = cl::Kernel(program, name.c_str());
+    require_fits(name, result);
+  });
+  return result;
+}
+
+void Programs::require_fits(const std::string& name, const DeviceKernel& kernel) const {
+  const std::size_t local =
+      kernel.kernel.getWorkGroupInfo<CL_KERNEL_LOCAL_MEM_SIZE>(device_.device);
+  if (local > device_.local_bytes) {
+    throw UnavailableError(
+        fmt::format("opencl: kernel {}: found {} bytes of local memory needed, expected at most {} "
+                    "on {}; a smaller group needs less",
+                    name, local, device_.local_bytes, device_.name));
+  }
+  const std::size_t most =
+      kernel.kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device_.device);
+  if (static_cast<std::size_t>(kernel.layout.group) > most) {
+    throw UnavailableError(
+        fmt::format("opencl: kernel {}: found a group of {} work-items, expected at most {} on {}",
+                    name, kernel.layout.group, most, device_.name));
+  }
+}
+
+}  // namespace slambench

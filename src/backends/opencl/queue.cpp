@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include "backends/opencl/queue.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "core/error.h"
+
+namespace slambench {
+
+void throw_opencl_error(const std::string& device, const cl::Error& error) {
+  const std::string call = fmt::format("{} (error {})", error.what(), error.err());
+  switch (error.err()) {
+    case CL_MEM_OBJECT_ALLOCATION_FAILURE:
+    case CL_OUT_OF_RESOURCES:
+    case CL_OUT_OF_HOST_MEMORY:
+    case CL_INVALID_BUFFER_SIZE:
+      throw UnavailableError(
+          fmt::format("opencl: {} has no memory or resources left: {}", device, call));
+    case CL_DEVICE_NOT_AVAILABLE:
+      throw UnavailableError(fmt::format(
+          "opencl: {} is not available, another program may hold it: {}", device, call));
+    default:
+      throw Error(ExitStatus::failed, fmt::format("opencl: {} failed: {}", device, call));
+  }
+}
+
+Queue::Queue(const OpenclDevice& device) : device_(device) {
+  with_opencl_errors(device_.name, [&] {
+    context_ = cl::Context(device_.device);
+    queue_ = cl::CommandQueue(context_, device_.device, CL_QUEUE_PROFILING_ENABLE);
+  });
+}
+
+cl::Buffer Queue::allocate(std::size_t bytes) {
+  bytes = std::max<std::size_t>(bytes, 4);
+  if (bytes > device_.largest_buffer_bytes) {
+    throw UnavailableError(
+        fmt::format("opencl: found a buffer of {} MiB, expected at most {} on {}", bytes >> 20,
+                    device_.largest_buffer_bytes >> 20, device_.name));
+  }
+  return with_opencl_errors(device_.name, [&] {
+    cl::Buffer buffer(context_, CL_MEM_READ_WRITE, bytes);
+    queue_.enqueueFillBuffer(buffer, std::uint8_t{0}, 0, bytes);
+    return buffer;
+  });
+}
+
+void Queue::write(const cl::Buffer& destination, const void* source, std::size_t bytes) {
+  if (bytes == 0) return;
+  with_opencl_errors(device_.name,
+                     [&] { queue_.enqueueWriteBuffer(destination, CL_TRUE, 0, bytes, source); });
+}
+
+void Queue::read(void* destination, const cl::Buffer& source, std::size_t bytes) {
+  if (bytes == 0) return;
+  with_opencl_errors(device_.name,
+                     [&] { queue_.enqueueReadBuffer(source, CL_TRUE, 0, bytes, destination); });
+}
+
+void Queue::copy(const cl::Buffer& destination, const cl::Buffer& source, std::size_t bytes) {
+  run([&](cl::Event* event) {
+    queue_.enqueueCopyBuffer(source, destination, 0, 0, bytes, nullptr, event);
+  });
+}
+
+void Queue::begin(Kernel kernel, bool measure) {
+  measures_ = measure;
+  if (measure) calls_.push_back({kernel, {}, {}});
+}
+
+void Queue::finish(Observer* observer) {
+  measures_ = false;
+  with_opencl_errors(device_.name, [&] {
+    queue_.finish();
+    for (const Call& call : calls_) {
+      if (observer == nullptr || call.first() == nullptr) continue;
+      const auto begin = call.first.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+      const auto end = call.last.getProfilingInfo<CL_PROFILING_COMMAND_END>();
+      observer->kernel_measured(call.kernel, static_cast<double>(end - begin) * 1e-9);
+    }
+  });
+  calls_.clear();
+}
+
+}  // namespace slambench

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <CL/opencl.hpp>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "backends/opencl/device.h"
+#include "backends/opencl/program.h"
+#include "kernels/observer.h"
+
+namespace slambench {
+
+/// Throws what an error of OpenCL means to a user: UnavailableError when the device is busy or
+/// has no memory left, else Error; both name the device and the call.
+[[noreturn]] void throw_opencl_error(const std::string& device, const cl::Error& error);
+
+template <class F>
+decltype(auto) with_opencl_errors(const std::string& device, const F& f) {
+  try {
+    return f();
+  } catch (const cl::Error& error) {
+    throw_opencl_error(device, error);
+  }
+}
+
+/// The device's queue of commands, in order: memory, transfers and launches. Knows which launches
+/// belong to which call of a kernel, and their times once they are done.
+class Queue {
+ public:
+  explicit Queue(const OpenclDevice& device);
+
+  const OpenclDevice& device() const { return device_; }
+  const cl::Context& context() const { return context_; }
+
+  /// Zeroed. Throws UnavailableError when the device has no such memory.
+  cl::Buffer allocate(std::size_t bytes);
+  /// Waits until the source may change again.
+  void write(const cl::Buffer& destination, const void* source, std::size_t bytes);
+  /// Waits for everything before.
+  void read(void* destination, const cl::Buffer& source, std::size_t bytes);
+  /// Fills with copies of a value, whose size must divide the number of bytes.
+  template <class T>
+  void fill(const cl::Buffer& destination, T value, std::size_t offset, std::size_t bytes) {
+    run([&](cl::Event* event) {
+      queue_.enqueueFillBuffer(destination, value, offset, bytes, nullptr, event);
+    });
+  }
+  void copy(const cl::Buffer& destination, const cl::Buffer& source, std::size_t bytes);
+
+  /// Launches so many groups of the kernel's group size with these arguments.
+  template <class... Arguments>
+  void launch_groups(DeviceKernel& kernel, std::size_t groups, const Arguments&... arguments) {
+    if (groups == 0) return;
+    run([&](cl::Event* event) {
+      cl_uint index = 0;
+      (kernel.kernel.setArg(index++, arguments), ...);
+      const auto group = static_cast<std::size_t>(kernel.layout.group);
+      queue_.enqueueNDRangeKernel(kernel.kernel, cl::NullRange, cl::NDRange(groups * group),
+                                  cl::NDRange(group), nullptr, event);
+    });
+  }
+  /// Launches what covers so many packets.
+  template <class... Arguments>
+  void launch(DeviceKernel& kernel, std::size_t packets, const Arguments&... arguments) {
+    launch_groups(kernel, kernel.groups(packets), arguments...);
+  }
+
+  /// Commands from now on belong to a call of this kernel, if anybody wants to know times.
+  void begin(Kernel kernel, bool measure);
+  /// Waits for all, and tells the observer (null: nobody) the time of each call: from the start
+  /// of its first command to the end of its last.
+  void finish(Observer* observer);
+
+ private:
+  struct Call {
+    Kernel kernel;
+    cl::Event first, last;
+  };
+
+  template <class F>
+  void run(const F& enqueue) {
+    with_opencl_errors(device_.name, [&] {
+      cl::Event event;
+      enqueue(measures_ ? &event : nullptr);
+      if (!measures_) return;
+      Call& call = calls_.back();
+      if (call.first() == nullptr) call.first = event;
+      call.last = event;
+    });
+  }
+
+  OpenclDevice device_;
+  cl::Context context_;
+  cl::CommandQueue queue_;
+  std::vector<Call> calls_;
+  bool measures_ = false;
+};
+
+}  // namespace slambench

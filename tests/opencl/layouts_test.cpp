@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+
+// The design space of the kernels: every layout gives what the reference gives.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "backends/opencl/opencl.h"
+#include "core/error.h"
+#include "support/temporary_folder.h"
+#include "verify/agreement.h"
+
+namespace slambench {
+namespace {
+
+struct LayoutCase {
+  const char* name;
+  KernelLayout layout;
+};
+
+/// As on a GPU; vectors of either width, in groups of one and of several work-items.
+constexpr LayoutCase cases[] = {{"groups_of_64", {64, 1, 1}},
+                                {"groups_of_32_in_turns", {32, 1, 3}},
+                                {"eight_lanes", {1, 8, 5}},
+                                {"groups_of_4_with_8_lanes", {4, 8, 1}},
+                                {"sixteen_lanes", {1, 16, 2}}};
+
+BackendOptions with(const KernelLayout& layout) {
+  BackendOptions options;
+  options.opencl.layouts.fill({layout.group, layout.lanes, layout.per_item});
+  return options;
+}
+
+class Layouts : public ::testing::TestWithParam<LayoutCase> {
+ protected:
+  void SetUp() override {
+    const std::string reason = opencl_obstacle();
+    if (!reason.empty()) GTEST_SKIP() << reason;
+  }
+};
+
+TEST_P(Layouts, AgreeWithTheReference) {
+  Candidate candidate = make_candidate("opencl", with(GetParam().layout));
+  for (const MapInfo& map : map_table()) {
+    for (const Check& check : check_table()) {
+      const bool needs_map = check.kernel && info(*check.kernel).stage != Stage::preprocess &&
+                             info(*check.kernel).stage != Stage::track;
+      if (!needs_map && map.map == MapKind::bricks) continue;
+      const Agreement result = agreement(check, candidate, map.map, {});
+      EXPECT_EQ(result.verdict, Verdict::agrees)
+          << check.name << " on " << map.name << ": "
+          << (result.failures.empty() ? "" : result.failures.front().where);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Layouts, ::testing::ValuesIn(cases),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(OpenclParameters, FillInWhatSuitsTheKindOfDevice) {
+  OpenclParameters parameters;
+  EXPECT_GT(parameters.layout("raycast", true).lanes, 1);
+  EXPECT_EQ(parameters.layout("raycast", false).lanes, 1);
+  const ParameterList list = parameters.describe();
+  const Parameter* raycast = find({list}, "opencl-raycast");
+  ASSERT_NE(raycast, nullptr);
+  set_from_text(*raycast, "32,8,0");
+  const KernelLayout layout = parameters.layout("raycast", true);
+  EXPECT_EQ(layout.group, 32);
+  EXPECT_EQ(layout.lanes, 8);
+  EXPECT_EQ(layout.per_item, OpenclParameters{}.layout("raycast", true).per_item);
+}
+
+TEST(OpenclParameters, RefuseWhatNoKernelCanHave) {
+  for (const char* text : {"3,1,1", "1,4,1", "24,16,1"}) {
+    OpenclParameters parameters;
+    const ParameterList list = parameters.describe();
+    set_from_text(*find({list}, "opencl-align"), text);
+    const std::string message =
+        testing::message_of<UsageError>([&] { parameters.layout("align", true); });
+    EXPECT_NE(message.find(std::string("--opencl-align: found ") + text), std::string::npos)
+        << message;
+  }
+}
+
+}  // namespace
+}  // namespace slambench

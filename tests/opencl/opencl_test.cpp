@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+
+// What the backend does besides computing: devices, times, the cache of programs, errors.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "backends/opencl/opencl.h"
+#include "backends/registry.h"
+#include "core/error.h"
+#include "support/device_images.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+namespace slambench {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class Opencl : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string reason = opencl_obstacle();
+    if (!reason.empty()) GTEST_SKIP() << reason;
+  }
+};
+
+/// Writes down what it is told.
+class Journal final : public Observer {
+ public:
+  void stage_begin(Stage) override {}
+  void stage_end(Stage) override {}
+  void kernel_begin(Kernel kernel) override { begun.push_back(kernel); }
+  void kernel_end(Kernel) override {}
+  void kernel_measured(Kernel kernel, double seconds) override {
+    measured.push_back(kernel);
+    least_s = std::min(least_s, seconds);
+  }
+  std::vector<Kernel> begun, measured;
+  double least_s = 1;
+};
+
+TEST_F(Opencl, ReportsEachCallOnceWhenItsTimeIsKnown) {
+  const auto backend = make_opencl_backend(0, {});
+  Journal journal;
+  backend->observe(&journal);
+  const Size size{33, 9};
+  auto depth = testing::uploaded(*backend, Image<float>(size, 1.5f));
+  auto vertices = backend->make_image<Float3>(size), normals = backend->make_image<Float3>(size);
+  Volume volume = backend->make_volume(MapKind::bricks, {16, 16, 16}, {2, 2, 2});
+  backend->depth2vertex(vertices, depth, {30, 30, 16, 4});
+  backend->integrate(volume, depth, {{}, {30, 30, 16, 4}, 0.1f, 100, 0.0001f});
+  backend->raycast(vertices, normals, volume, {{}, {30, 30, 16, 4}, 0.4f, 4, 0.1f, 0.05f, 0.8f});
+  EXPECT_THAT(journal.measured, ::testing::IsEmpty());
+  backend->finish();
+  EXPECT_THAT(journal.begun, ::testing::IsEmpty());
+  EXPECT_THAT(journal.measured, ::testing::ElementsAre(Kernel::init_volume, Kernel::depth2vertex,
+                                                       Kernel::integrate, Kernel::raycast));
+  EXPECT_GT(journal.least_s, 0);
+}
+
+TEST_F(Opencl, BricksGrowWithWhatIsSeen) {
+  const auto backend = make_opencl_backend(0, {});
+  Volume volume = backend->make_volume(MapKind::bricks, {128, 128, 128}, {4, 4, 4});
+  const std::size_t empty = backend->volume_bytes(volume);
+  const Size size{64, 48};
+  auto depth = testing::uploaded(*backend, Image<float>(size, 2.0f));
+  backend->integrate(volume, depth, {{}, {60, 60, 32, 24}, 0.1f, 100, 0.0001f});
+  EXPECT_GT(backend->volume_bytes(volume), empty);
+  EXPECT_LT(backend->volume_bytes(volume), std::size_t{128 * 128 * 128 * 4});
+}
+
+TEST_F(Opencl, FindsDevicesByIndexAndByAPartOfTheirText) {
+  const std::vector<std::string> devices = opencl_devices();
+  ASSERT_FALSE(devices.empty());
+  const std::string name = make_opencl_backend(0, {})->device();
+  EXPECT_THAT(devices[0], ::testing::StartsWith(name));
+  BackendOptions options;
+  for (const std::string& wanted : {std::string("0"), name.substr(2, 6)}) {
+    options.device = wanted;
+    EXPECT_EQ(create_backend("opencl", options)->device(), name);
+  }
+  for (const std::string& wanted : {std::to_string(devices.size()), std::string("abacus")}) {
+    options.device = wanted;
+    EXPECT_THAT(testing::message_of<UsageError>([&] { create_backend("opencl", options); }),
+                AllOf(HasSubstr("--device: found '" + wanted + "'"), HasSubstr(name)));
+  }
+  EXPECT_THROW(make_opencl_backend(static_cast<int>(devices.size()), {}), UnavailableError);
+}
+
+TEST_F(Opencl, ABuildThatFailsShowsTheLog) {
+  OpenclParameters parameters;
+  parameters.build_options = "-Dhalf_sample=5";
+  const auto backend = make_opencl_backend(0, parameters);
+  auto depth = backend->make_image<float>({8, 8}), half = backend->make_image<float>({4, 4});
+  EXPECT_THAT(testing::message_of<Error>([&] { backend->half_sample(half, depth, 0.1f); }),
+              AllOf(HasSubstr("half_sample.cl does not build"), HasSubstr("-Dhalf_sample=5"),
+                    HasSubstr("error:")));
+}
+
+TEST_F(Opencl, AKernelOverTheLocalMemoryIsUnavailable) {
+  OpenclParameters parameters;
+  parameters.build_options = "-DMOST_TILES=100000000";  // the later of two wins
+  const auto backend = make_opencl_backend(0, parameters);
+  auto vertices = backend->make_image<Float3>({8, 8}),
+       normals = backend->make_image<Float3>({8, 8});
+  const Volume volume = backend->make_volume(MapKind::bricks, {8, 8, 8}, {1, 1, 1});
+  EXPECT_THAT(
+      testing::message_of<UnavailableError>([&] {
+        backend->raycast(vertices, normals, volume, {{}, {8, 8, 4, 4}, 0.4f, 4, 0.1f, 0.05f, 0.8f});
+      }),
+      AllOf(HasSubstr("start_depths"), HasSubstr("bytes of local memory")));
+}
+
+TEST_F(Opencl, MemoryThatTheDeviceDoesNotHaveIsUnavailable) {
+  const auto backend = make_opencl_backend(0, {});
+  EXPECT_THAT(testing::message_of<UnavailableError>([&] {
+                backend->make_image<Float3>({1 << 20, 1 << 20});
+              }),
+              HasSubstr("MiB, expected at most"));
+  EXPECT_THROW(backend->make_volume(MapKind::grid, {4096, 4096, 4096}, {1, 1, 1}),
+               UnavailableError);
+}
+
+TEST_F(Opencl, ProgramsAreKeptAndABrokenOneIsBuiltAnew) {
+  const testing::TemporaryFolder folder;
+  const char* before = std::getenv("XDG_CACHE_HOME");
+  const std::string kept = before == nullptr ? "" : before;
+  ::setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+  const auto halved = [] {
+    const auto backend = make_opencl_backend(0, {});
+    auto half = backend->make_image<float>({4, 4});
+    backend->half_sample(half, testing::uploaded(*backend, Image<float>({8, 8}, 2.5f)), 0.1f);
+    return testing::downloaded(*backend, half);
+  };
+  const Image<float> expected({4, 4}, 2.5f);
+  EXPECT_EQ(halved(), expected);
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder.path("slambench/opencl"))) {
+    files.push_back(entry.path());
+  }
+  ASSERT_EQ(files.size(), 1U);
+  EXPECT_EQ(halved(), expected);
+  folder.write("slambench/opencl/" + files[0].filename().string(), "no program");
+  EXPECT_EQ(halved(), expected);
+  EXPECT_GT(fs::file_size(files[0]), std::string("no program").size());
+  if (before == nullptr) {
+    ::unsetenv("XDG_CACHE_HOME");
+  } else {
+    ::setenv("XDG_CACHE_HOME", kept.c_str(), 1);
+  }
+}
+
+/// The program where the loader finds no platform.
+TEST(OpenclWithoutPlatform, IsUnavailableAndSaysWhatWouldHelp) {
+  testing::Program program(SLAMBENCH_PROGRAM);
+  program.set_environment("OCL_ICD_VENDORS", program.folder().path("none"));
+  program.set_environment("OCL_ICD_FILENAMES", "");
+  const testing::Outcome run = program.run({"run", "living-room/2", "--backend", "opencl"});
+  EXPECT_EQ(run.status, 4) << run.err;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("backend opencl: unavailable"), HasSubstr("install")));
+  const testing::Outcome list = program.run({"list"});
+  EXPECT_EQ(list.status, 0);
+  EXPECT_THAT(list.out, HasSubstr("unavailable"));
+}
+
+/// Looking for the quickest backend must not load drivers, which start threads.
+TEST(OpenclPreset, FastDoesNotTakeIt) {
+  const auto is_named = [](std::string_view name) {
+    return [name](const BackendEntry& entry) { return entry.name == name; };
+  };
+  const auto table = backend_table();
+  EXPECT_LT(std::find_if(table.begin(), table.end(), is_named("opencl")),
+            std::find_if(table.begin(), table.end(), is_named("openmp")));
+}
+
+}  // namespace
+}  // namespace slambench
