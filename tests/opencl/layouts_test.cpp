@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "backends/opencl/opencl.h"
 #include "core/error.h"
@@ -63,8 +64,8 @@ TEST(OpenclParameters, FillInWhatSuitsTheKindOfDevice) {
   OpenclParameters parameters;
   EXPECT_GT(parameters.layout("raycast", true).lanes, 1);
   EXPECT_EQ(parameters.layout("raycast", false).lanes, 1);
-  const ParameterList list = parameters.describe();
-  const Parameter* raycast = find({list}, "opencl-raycast");
+  const std::vector<ParameterList> lists = {parameters.describe()};
+  const Parameter* raycast = find(lists, "opencl-raycast");
   ASSERT_NE(raycast, nullptr);
   set_from_text(*raycast, "32,8,0");
   const KernelLayout layout = parameters.layout("raycast", true);
@@ -76,8 +77,8 @@ TEST(OpenclParameters, FillInWhatSuitsTheKindOfDevice) {
 TEST(OpenclParameters, RefuseWhatNoKernelCanHave) {
   for (const char* text : {"3,1,1", "1,4,1", "24,16,1"}) {
     OpenclParameters parameters;
-    const ParameterList list = parameters.describe();
-    set_from_text(*find({list}, "opencl-align"), text);
+    const std::vector<ParameterList> lists = {parameters.describe()};
+    set_from_text(*find(lists, "opencl-align"), text);
     const std::string message =
         testing::message_of<UsageError>([&] { parameters.layout("align", true); });
     EXPECT_NE(message.find(std::string("--opencl-align: found ") + text), std::string::npos)

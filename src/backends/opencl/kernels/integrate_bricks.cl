@@ -33,12 +33,14 @@ KERNEL integrate_bricks(global const int* varied, global int* counters,
   const int brick = varied[get_group_id(0)];
   const int first_x = brick % bricks.x * EDGE, first_y = brick / bricks.x % bricks.y * EDGE;
   const int first_z = brick / bricks.x / bricks.y * EDGE;
-  const int plane = distance_planes[brick], weight_plane = weight_planes[brick];
-  if (get_local_id(0) == 0) {
+  if (get_local_id(0) == 0) {  // alone reads and writes the tables
+    plane_of_tsdf = distance_planes[brick];
+    plane_of_weights = weight_planes[brick];
     differs = changed = greatest_weight = 0;
     least_weight = INT_MAX;
   }
   barrier(CLK_LOCAL_MEM_FENCE);
+  const int plane = plane_of_tsdf, weight_plane = plane_of_weights;
 
   Ints any_differs = (Ints)(0), any_changed = (Ints)(0);
   Ints least = (Ints)(INT_MAX), greatest = (Ints)(0);
@@ -70,8 +72,6 @@ KERNEL integrate_bricks(global const int* varied, global int* counters,
   barrier(CLK_LOCAL_MEM_FENCE);
 
   if (get_local_id(0) == 0) {
-    plane_of_tsdf = plane;
-    plane_of_weights = weight_plane;
     if (changed && plane == 0 && differs) {
       plane_of_tsdf = take_plane(brick, bricks, counters, distance_planes, owners, occupied);
     }
