@@ -469,13 +469,14 @@ constexpr int packet_height() { return lanes() / packet_width(); }
 
 /// The pixels of a packet, from (x, y) on.
 struct Packet {
-  int x = 0, y = 0, width = 0, height = 0;  ///< without what lies beyond the image
+  int x = 0, y = 0;
+  int width = 0, height = 0;  ///< without what lies beyond the image: width 0 where all of it does
   alignas(64) std::int32_t wanted[virtual_lanes] = {};
 
   Packet(const RaycastOutput& out, int x0, int y0, int y_end)
       : x(x0),
         y(y0),
-        width(std::min(packet_width(), out.size.width - x0)),
+        width(std::clamp(out.size.width - x0, 0, packet_width())),
         height(std::min(packet_height(), y_end - y0)) {
     for_each([&](int lane, int dx, int dy) {
       wanted[lane] =
@@ -541,7 +542,8 @@ HWY_INLINE void raycast_pair(const Map& map, const RaycastParameters& p, const R
   const Packet packets[2] = {Packet(out, x0, y0, y_end),
                              Packet(out, x0 + packet_width(), y0, y_end)};
   const auto started = [&](const Packet& packet) {
-    const float start_m = out.start != nullptr ? out.start->at(packet.x, packet.y) : 0;
+    const bool has_tile = out.start != nullptr && packet.width > 0;
+    const float start_m = has_tile ? out.start->at(packet.x, packet.y) : 0;
     return start_march(map, origin, rotate(p.T_volume_camera, packet.rays(p.camera)), p, start_m,
                        packet.active());
   };
