@@ -20,6 +20,7 @@ Action add_evaluate(CLI::App& command);
 Action add_generate(CLI::App& command);
 Action add_info(CLI::App& command);
 Action add_list(CLI::App& command);
+Action add_report(CLI::App& command);
 Action add_verify(CLI::App& command);
 
 }  // namespace slambench

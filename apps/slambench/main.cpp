@@ -34,6 +34,7 @@ std::vector<Command> command_table(const std::string& command_line) {
       {"generate", "render a sequence, of the living room or an own mesh, to disk", add_generate},
       {"info", "what a sequence has: frames, camera, axes, ground truth, suggestions", add_info},
       {"list", "what there is: backends, maps, kernels, layouts, presets, parameters", add_list},
+      {"report", "make one HTML file of runs: charts, paths, pictures, parameters", add_report},
       {"verify", "whether the backends compute what the reference computes", add_verify},
   };
 }

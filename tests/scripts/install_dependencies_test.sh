@@ -86,5 +86,12 @@ if ((EUID != 0)); then
   says "As root, run:"
 fi
 
+stand_in apt-get 'echo "$*" >>"$WORK/apt"'
+stand_in dpkg-query '[[ ${*: -1} == chromium ]] || echo -n installed'
+run 0
+[[ ! -e "$work/apt" ]] || fail "the browser was installed unasked"
+run 1 browser --check
+says "chromium"
+
 run 2 --force
 says "unknown argument '--force'"

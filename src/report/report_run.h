@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/trajectory.h"
+
+namespace slambench {
+
+/// The columns of a frames.csv by name: a number a frame, NaN where a field is empty.
+using FrameColumns = std::map<std::string, std::vector<double>, std::less<>>;
+
+/// A picture of a result folder: images/frame_000120_depth.png.
+struct Picture {
+  int frame = 0;
+  std::string kind;  ///< "depth"
+  std::string path;
+};
+
+/// A result folder as it was read (docs/record.md).
+struct ReportRun {
+  std::string folder;  ///< as the user named it
+  std::string name;    ///< what the report calls it
+  nlohmann::ordered_json record;
+  FrameColumns frames;
+  Trajectory estimate, truth;     ///< truth: empty without one
+  std::vector<Picture> pictures;  ///< by frame, then kind
+};
+
+/// The result folders that the arguments name: each is one, or holds some, which come in order of
+/// their names; none comes twice. Throws InputError for what is neither.
+std::vector<std::string> find_result_folders(const std::vector<std::string>& arguments);
+
+/// Throws InputError naming the file, and what was found and expected in it: a folder without one
+/// of its files, a record of another format or schema version, one that does not fit its frames.
+ReportRun read_report_run(const std::string& folder);
+
+/// Gives each run the shortest end of its path that tells it from the others.
+void name_runs(std::vector<ReportRun>* runs);
+
+}  // namespace slambench
