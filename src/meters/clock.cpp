@@ -3,6 +3,7 @@
 #include "meters/clock.h"
 
 #include <chrono>
+#include <ctime>
 #include <thread>
 
 namespace slambench {
@@ -29,6 +30,12 @@ class SteadyClock final : public Clock {
 const Clock& steady_clock() {
   static const SteadyClock clock;
   return clock;
+}
+
+double thread_cpu_s() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
 }
 
 }  // namespace slambench

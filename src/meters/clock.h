@@ -17,4 +17,7 @@ class Clock {
 /// CLOCK_MONOTONIC.
 const Clock& steady_clock();
 
+/// Processor time that the calling thread has taken.
+double thread_cpu_s();
+
 }  // namespace slambench

@@ -13,12 +13,16 @@ double FrameTimes::total_s() const {
   return stage(Stage::acquire) + computation_s() + stage(Stage::render);
 }
 
-void FrameTimer::stage_begin(Stage) { stage_begin_s_ = clock_.now_s(); }
+void FrameTimer::stage_begin(Stage stage) {
+  if (stages_ != nullptr) stages_->stage_begin(stage);
+  stage_begin_s_ = clock_.now_s();
+}
 
 void FrameTimer::stage_end(Stage stage) {
   const auto i = static_cast<std::size_t>(stage);
   times_.stage_s[i] += clock_.now_s() - stage_begin_s_;
   ++times_.stage_calls[i];
+  if (stages_ != nullptr) stages_->stage_end(stage);
 }
 
 void FrameTimer::kernel_begin(Kernel) { kernel_begin_s_ = clock_.now_s(); }

@@ -29,7 +29,9 @@ struct FrameTimes {
 /// those times count when they arrive, and need not add up to their stage's.
 class FrameTimer final : public Observer {
  public:
-  explicit FrameTimer(const Clock& clock) : clock_(clock) {}
+  /// Tells `stages`, if any, when stages begin and end, outside of what it measures itself.
+  explicit FrameTimer(const Clock& clock, Observer* stages = nullptr)
+      : clock_(clock), stages_(stages) {}
 
   void stage_begin(Stage stage) override;
   void stage_end(Stage stage) override;
@@ -42,6 +44,7 @@ class FrameTimer final : public Observer {
 
  private:
   const Clock& clock_;
+  Observer* const stages_;
   FrameTimes times_;
   double stage_begin_s_ = 0, kernel_begin_s_ = 0;
 };

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "kernels/observer.h"
+#include "meters/measurements.h"
+#include "meters/perf_events.h"
+
+namespace slambench {
+
+/// Counts what the processor did in each stage: reads counters where a stage begins and ends, and
+/// nowhere else. Counts the threads that are started after it and the one that made it.
+class StageCounters final : public Observer {
+ public:
+  /// Throws MeterError when none of the events can be counted.
+  explicit StageCounters(const PerfEvents& events);
+
+  void stage_begin(Stage stage) override;
+  void stage_end(Stage stage) override;
+  void kernel_begin(Kernel) override {}
+  void kernel_end(Kernel) override {}
+  void kernel_measured(Kernel, double) override {}
+
+  /// The counts since the last call; starts anew. Events that cannot be counted are explained in
+  /// `absent`.
+  CounterMeasurement take(int frames, std::map<std::string, std::string>* absent);
+
+ private:
+  static constexpr std::size_t event_count = 4;
+  using Counts = std::array<std::uint64_t, event_count>;
+  Counts read();
+
+  std::array<std::unique_ptr<PerfCount>, event_count> events_;
+  std::array<std::string, event_count> reasons_;
+  Counts begin_{};
+  std::array<Counts, stage_count> counted_{};
+};
+
+}  // namespace slambench
