@@ -7,6 +7,7 @@
 #include "backends/registry.h"
 #include "core/parameter.h"
 #include "datasets/source.h"
+#include "meters/run_meters.h"
 #include "results/output_parameters.h"
 #include "runner/runner.h"
 #include "slam/kinect_fusion.h"
@@ -18,6 +19,7 @@ struct AllParameters {
   RunParameters run;
   SourceParameters source;
   BackendOptions backend;
+  MeterParameters meters;
   OutputParameters output;
   KinectFusionParameters kinectfusion;
 
@@ -26,7 +28,7 @@ struct AllParameters {
   AllParameters& operator=(const AllParameters&) = delete;
 
   std::vector<ParameterList> lists() {
-    return {run.describe(),    source.describe(),       backend.describe(),
+    return {run.describe(),    source.describe(),       backend.describe(),       meters.describe(),
             output.describe(), kinectfusion.describe(), backend.opencl.describe()};
   }
 };

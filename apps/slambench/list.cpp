@@ -15,6 +15,7 @@
 #include "kernels/kernel.h"
 #include "meters/clock.h"
 #include "meters/machine.h"
+#include "meters/meter.h"
 #include "parameter_options.h"
 #include "terminal.h"
 
@@ -63,6 +64,19 @@ Json as_json(const BackendEntry& entry) {
   return json;
 }
 
+Json as_json(const MeterEntry& entry, const FoundMeters& found) {
+  Json json = {
+      {"name", entry.name}, {"sentence", entry.sentence}, {"available", found.unavailable.empty()}};
+  if (!found.unavailable.empty()) json["reason"] = found.unavailable;
+  for (const auto& meter : found.meters) {
+    json["sensors"].push_back({{"name", meter->info().name}, {"sensor", meter->info().sensor}});
+  }
+  for (const auto& [name, reason] : found.refused) {
+    json["refused"].push_back({{"name", name}, {"reason", reason}});
+  }
+  return json;
+}
+
 Json as_json(const KernelInfo& info) {
   return {{"name", info.name},
           {"paper_name", info.paper_name},
@@ -87,9 +101,12 @@ Json as_json(const Parameter& parameter) {
 }
 
 /// Everything that the command tells, in one object; the tables are made of the same sources.
-Json everything() {
+Json everything(const MeterContext& context) {
   Json json;
   for (const BackendEntry& entry : backend_table()) json["backends"].push_back(as_json(entry));
+  for (const MeterEntry& entry : meter_table()) {
+    json["meters"].push_back(as_json(entry, entry.find(context)));
+  }
   for (const MapInfo& map : map_table()) {
     json["maps"].push_back({{"name", map.name}, {"sentence", map.sentence}});
   }
@@ -111,7 +128,28 @@ Json everything() {
   return json;
 }
 
-std::string tables() {
+std::vector<Row> meter_rows(const MeterContext& context) {
+  std::vector<Row> rows;
+  for (const MeterEntry& entry : meter_table()) {
+    const FoundMeters found = entry.find(context);
+    rows.push_back({std::string(entry.name),
+                    found.unavailable.empty() ? "available" : "unavailable",
+                    std::string(entry.sentence)});
+    if (!found.unavailable.empty()) {
+      rows.push_back({"", "", found.unavailable});
+      continue;
+    }
+    for (const auto& meter : found.meters) {
+      rows.push_back({"", "", fmt::format("{}: {}", meter->info().name, meter->info().sensor)});
+    }
+    for (const auto& [name, reason] : found.refused) {
+      rows.push_back({"", "", fmt::format("not {}: {}", name, reason)});
+    }
+  }
+  return rows;
+}
+
+std::string tables(const MeterContext& context) {
   std::vector<Row> backends, maps, kernels, layouts, presets;
   for (const BackendEntry& entry : backend_table()) {
     const Availability availability = entry.availability();
@@ -148,7 +186,8 @@ std::string tables() {
   return table("Backends (--backend)", backends) + table("Maps (--map)", maps) +
          table("Presets (--preset)", presets) +
          table("Layouts of sequences, recognised by themselves", layouts) +
-         table("Kernels", kernels) + "Parameters: slambench list --parameters\n";
+         table("Meters", meter_rows(context)) + table("Kernels", kernels) +
+         "Parameters: slambench list --parameters\n";
 }
 
 std::string option_text(const Parameter& parameter) {
@@ -246,6 +285,7 @@ std::string ceiling_text(const MachineCeiling& ceiling) {
 struct ListOptions {
   bool json = false, parameters = false, markdown = false, machine = false;
   int threads = 0;
+  MeterParameters meters;
 };
 
 ExitStatus list_machine(const ListOptions& options) {
@@ -264,6 +304,12 @@ Action add_list(CLI::App& command) {
                    "measure what the cores reach: copy bandwidth and multiply-add rate");
   command.add_option("--threads", options->threads, "with --machine; 0: one per core (default)")
       ->check(CLI::Range(0, 4096));
+  command
+      .add_option("--sysfs-root", options->meters.sysfs_root,
+                  "folder in which meters look for /sys and /proc, instead of /")
+      ->type_name("DIR");
+  command.add_option("--nvml-library", options->meters.nvml_library, "NVIDIA's management library")
+      ->type_name("FILE");
   command.add_flag("--json", options->json, "everything, or the machine, as one JSON object");
   return [options] {
     if (options->markdown && !options->parameters) {
@@ -275,11 +321,11 @@ Action add_list(CLI::App& command) {
     if (options->threads > 0 && !options->machine) throw UsageError("--threads: needs --machine");
     if (options->machine) return list_machine(*options);
     if (options->json) {
-      print(everything().dump(2) + "\n");
+      print(everything(options->meters.context()).dump(2) + "\n");
     } else if (options->markdown) {
       print(parameter_markdown());
     } else {
-      print(options->parameters ? parameter_tables() : tables());
+      print(options->parameters ? parameter_tables() : tables(options->meters.context()));
     }
     return ExitStatus::ok;
   };

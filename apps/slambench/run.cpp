@@ -21,14 +21,16 @@
 #include "interrupt.h"
 #include "io/files.h"
 #include "meters/clock.h"
+#include "meters/run_meters.h"
 #include "open_sequence.h"
 #include "parameter_options.h"
 #include "progress.h"
 #include "results/provenance.h"
-#include "results/repetition.h"
 #include "results/result_folder.h"
+#include "results/run_statistics.h"
 #include "results/summary.h"
 #include "results/writers.h"
+#include "runner/repeat.h"
 #include "runner/runner.h"
 #include "terminal.h"
 
@@ -225,6 +227,28 @@ ExitStatus report(const Record& record, const SequenceInfo& info, const std::str
   return ExitStatus::ok;
 }
 
+/// The power of the machine at rest.
+void measure_idle(double seconds, RunMeters& meters, bool show, const InterruptFlag& interrupt) {
+  if (!(seconds > 0)) return;
+  ProgressBar bar("idle baseline", "s", steady_clock(), show);
+  const double begin_s = steady_clock().now_s();
+  meters.measure_idle(seconds, [&] {
+    bar.show(static_cast<int>(steady_clock().now_s() - begin_s), static_cast<int>(seconds));
+    return !interrupt.raised().load();
+  });
+}
+
+void add_device_memory(const Backend& backend, Measurements* measurements) {
+  measurements->memory.device_bytes = backend.device_bytes();
+  if (measurements->memory.device_bytes) return;
+  measurements->absent["memory.device_bytes"] =
+      backend.threads() > 0 ? "computes in host memory" : "the backend does not tell";
+}
+
+std::string progress_title(const std::string& sequence, const RunNumber& run) {
+  return run.of == 1 && !run.warmup ? sequence : fmt::format("{}, {}", sequence, to_text(run));
+}
+
 ExitStatus run(RunArguments& arguments) {
   const auto started_at =
       std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
@@ -233,6 +257,7 @@ ExitStatus run(RunArguments& arguments) {
   const InterruptFlag interrupt;
   const auto source = open_sequence(plan.sequence, p.source, &plan.settings);
   const SequenceInfo& info = source->info();
+  RunMeters meters(p.meters, p.meters.context(), steady_clock());  // before the backend's threads
   const auto backend = create_backend(p.backend.backend, p.backend);
   const auto folder =
       open_results(p.output, default_result_folder(started_at, info.name, backend->name()));
@@ -240,31 +265,39 @@ ExitStatus run(RunArguments& arguments) {
   const bool show = !p.output.quiet && !p.output.json;
   prepare(*source, frames_to_run(info, p.run), show, interrupt);
   if (!p.source.ground_truth.empty()) check_ground_truth(*source, p.run);
+  measure_idle(p.meters.idle, meters, show, interrupt);
 
-  FrameTimer timer(steady_clock());
-  backend->observe(&timer);
-  KinectFusion system(*backend, p.kinectfusion, info.depth_size, info.camera, info.units_per_m,
-                      &timer);
-  Record record;
-  record.provenance = provenance(arguments, *backend, started_at);
-  record.parameters = plan.settings.used();
-  record.parameters.insert(record.parameters.begin(), plan.preset);
-  record.computation_size = {info.depth_size.width / p.kinectfusion.compute_size_ratio,
-                             info.depth_size.height / p.kinectfusion.compute_size_ratio};
-  {
-    ProgressBar bar(info.name, "frames", steady_clock(), show);
+  std::unique_ptr<System> system;  // of the last run
+  const auto one_run = [&](const RunNumber& number) {
+    system.reset();  // its memory is the next one's
+    FrameTimer timer(steady_clock(), meters.stages());
+    backend->observe(&timer);
+    system = std::make_unique<KinectFusion>(*backend, p.kinectfusion, info.depth_size, info.camera,
+                                            info.units_per_m, &timer);
+    Record record;
+    record.provenance = provenance(arguments, *backend, started_at);
+    record.parameters = plan.settings.used();
+    record.parameters.insert(record.parameters.begin(), plan.preset);
+    record.computation_size = {info.depth_size.width / p.kinectfusion.compute_size_ratio,
+                               info.depth_size.height / p.kinectfusion.compute_size_ratio};
+    ProgressBar bar(progress_title(info.name, number), "frames", steady_clock(), show);
     RunHooks hooks;
     hooks.progress = [&](const Progress& at) { bar.show(at.done, at.total, remark(at)); };
     hooks.images = [&](const FrameRecord& frame, System& s) {
-      save_images(frame, s, p.output.images, *folder);
+      if (number.last) save_images(frame, s, p.output.images, *folder);
     };
     hooks.stop = &interrupt.raised();
-    run_frames(*source, system, timer, steady_clock(), p.run, hooks, &record);
-  }
-  record.provenance.load_average_end = load_average();
-  judge(info, &record);
-  record.repetition = repetition_of({run_figures(record)});
-  write_outputs(record, system, p.output, *folder);
+    meters.begin();
+    run_frames(*source, *system, timer, steady_clock(), p.run, hooks, &record);
+    record.measurements = meters.end(static_cast<int>(frame_counts(record).processed));
+    add_device_memory(*backend, &record.measurements);
+    record.provenance.load_average_end = load_average();
+    judge(info, &record);
+    backend->observe(nullptr);
+    return record;
+  };
+  const Record record = repeat_runs(p.run, one_run);
+  write_outputs(record, *system, p.output, *folder);
   return report(record, info, folder->path(), p.output);
 }
 

@@ -102,6 +102,8 @@ class Backend {
   virtual std::string driver() const { return ""; }
   /// Threads of the host that kernels run on; 0 on a device of its own.
   virtual int threads() const { return 0; }
+  /// Memory that this instance holds now on a device with memory of its own; none on the host.
+  virtual std::optional<std::size_t> device_bytes() const { return std::nullopt; }
   /// An honest answer: whether the kernel is implemented for this map.
   virtual bool supports(Kernel kernel, MapKind map) const = 0;
   /// The first kernel that a pipeline needs and that is missing for this map. `acquire` is none of

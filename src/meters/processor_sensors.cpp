@@ -74,8 +74,7 @@ FoundMeters find_frequency(const MeterContext& context) {
                      files, some),
                  &found);
   }
-  explain_nothing(&found,
-                  fmt::format("{}/cpu*/cpufreq/scaling_cur_freq: none", files.path(cpu_folder)));
+  explain_nothing(&found, fmt::format("{}: no cpufreq", files.path(cpu_folder)));
   return found;
 }
 

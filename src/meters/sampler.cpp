@@ -107,26 +107,28 @@ void Sampler::begin() {
   for (const auto& reader : readers_) reader->begin();
   samples_ = 0;
   begin_s_ = slow_s_ = clock_.now_s();
-  read(true);
+  read(begin_s_, true);
 }
 
 void Sampler::sample() {
-  const bool all = clock_.now_s() - slow_s_ >= slow_interval_s;
-  if (all) slow_s_ = clock_.now_s();
-  read(all);
+  const double now_s = clock_.now_s();
+  const bool all = now_s - slow_s_ >= slow_interval_s;
+  if (all) slow_s_ = now_s;
+  read(now_s, all);
 }
 
 void Sampler::end() {
-  read(true);
+  read(clock_.now_s(), true);
   for (const auto& reader : readers_) reader->end();
 }
 
-void Sampler::read(bool all) {
+/// Readings of one round have one time, so that all rails have the same duration.
+void Sampler::read(double now_s, bool all) {
   for (const auto& reader : readers_) {
     if (!all && is_slow(reader->meter().info().quantity)) continue;
-    reader->read(clock_.now_s() - begin_s_);
+    reader->read(now_s - begin_s_);
   }
-  last_s_ = clock_.now_s();
+  last_s_ = now_s;
   ++samples_;
 }
 

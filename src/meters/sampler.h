@@ -45,7 +45,7 @@ class Sampler {
 
  private:
   class Reader;
-  void read(bool all);
+  void read(double now_s, bool all);
 
   const Clock& clock_;
   const double interval_s_;

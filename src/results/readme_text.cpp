@@ -28,6 +28,11 @@ constexpr std::string_view ground_truth =
     R"(  groundtruth.tum the true camera in the same format, axes and stamps.
 )";
 
+constexpr std::string_view samples =
+    R"(  samples.csv     what sensors said over time: meter, unit, seconds since the first
+                  frame, value.
+)";
+
 constexpr std::string_view images =
     R"(  images/         pictures of some frames, named by frame: the depth image, what
                   became of each pixel in tracking (grey used, black no
@@ -63,6 +68,7 @@ std::string readme_text(const Record& record, bool with_images) {
   text += files;
   const bool judged = !record.ground_truth.empty();
   if (judged) text += ground_truth;
+  if (record.measurements.sampling) text += samples;
   if (with_images) text += images;
   if (!record.ground_truth_file.empty()) {
     text += fmt::format("\nGround truth: {}\n", record.ground_truth_file);

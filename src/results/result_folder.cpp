@@ -67,6 +67,9 @@ void ResultFolder::commit(const Record& record) {
   if (!record.ground_truth.empty()) {
     write_file(folder_.file("groundtruth.tum"), trajectory_text(record.ground_truth));
   }
+  if (record.measurements.sampling) {
+    write_file(folder_.file("samples.csv"), samples_csv(record));
+  }
   write_file(folder_.file("slambench1.log"), slambench1_log(record));
   write_file(folder_.file(std::string(record_name)), record_json(record));
   folder_.commit();

@@ -22,6 +22,9 @@ std::string frames_csv(const Record& record);
 /// the position before the row's frame was tracked, relative to the start, in y-down camera axes.
 std::string slambench1_log(const Record& record);
 
+/// What the sensors said over time: a row a reading; empty when there is none.
+std::string samples_csv(const Record& record);
+
 /// What lies in the folder, for a person who finds it.
 std::string readme_text(const Record& record, bool with_images);
 

@@ -160,7 +160,10 @@ ParameterList RunParameters::describe() {
            {"fps", 'f', "frames/s", &fps, 0, 1e6,
             "feed frames at this rate and drop those that come too late; 0: process every frame"},
            {"warmup-frames", 0, "frames", &warmup_frames, 0, most,
-            "first processed frames that the time statistics leave out"}}};
+            "first processed frames that the time statistics leave out"},
+           {"repeat", 0, "runs", &repeat, 1, 1000,
+            "measure so many runs, and give each figure's median with a 95 % confidence interval"},
+           {"warmup", 0, "runs", &warmup, 0, 1000, "run so often before that without measuring"}}};
 }
 
 void check_ground_truth(Source& source, const RunParameters& parameters) {

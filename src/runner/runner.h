@@ -21,6 +21,8 @@ struct RunParameters {
   double fps = 0;          ///< > 0: real time at this rate
   int warmup_frames = 5;   ///< processed first and left out of the time statistics; fewer when that
                            ///< would leave none
+  int repeat = 1;          ///< runs that are measured
+  int warmup = 0;          ///< runs before them that are not
 
   ParameterList describe();
 };

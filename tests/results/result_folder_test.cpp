@@ -37,8 +37,9 @@ std::set<std::string> names(const std::string& folder) {
   return found;
 }
 
-const std::set<std::string> result_files = {"README.txt",  "frames.csv",     "groundtruth.tum",
-                                            "record.json", "slambench1.log", "trajectory.tum"};
+const std::set<std::string> result_files = {"README.txt",      "samples.csv", "frames.csv",
+                                            "groundtruth.tum", "record.json", "slambench1.log",
+                                            "trajectory.tum"};
 
 Record record_of(const std::string& sequence) {
   Record record = sample_record();

@@ -368,6 +368,16 @@ TEST(FramesCsv, GivesQuaternionsInTheSequencesOwnAxes) {
   EXPECT_NEAR(std::stod(field(csv, 4, "qw")), 0.6, 1e-12);
 }
 
+TEST(SamplesCsv, HasARowAReading) {
+  Record record = sample_record();
+  record.measurements.sampling->series[0].name = "a, \"b\"";
+  EXPECT_EQ(samples_csv(record),
+            "meter,unit,time_s,value\r\n\"a, \"\"b\"\"\",W,0.0625,2\r\n"
+            "\"a, \"\"b\"\"\",W,0.125,8\r\n");
+  record.measurements.sampling.reset();
+  EXPECT_EQ(samples_csv(record), "");
+}
+
 TEST(Slambench1Log, IsTheLiteralTextWithPositionsOneFrameLate) {
   EXPECT_EQ(slambench1_log(sample_record()),
             "frame\tacquisition\tpreprocessing\ttracking\tintegration\traycasting\trendering\t"
