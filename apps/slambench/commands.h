@@ -16,6 +16,7 @@ using Action = std::function<ExitStatus()>;
 /// Each declares its arguments on `command` and returns what to do with them.
 /// `command_line` is the whole of it, for the record.
 Action add_run(CLI::App& command, const std::string& command_line);
+Action add_compare(CLI::App& command);
 Action add_evaluate(CLI::App& command);
 Action add_generate(CLI::App& command);
 Action add_info(CLI::App& command);

@@ -29,6 +29,7 @@ std::vector<Command> command_table(const std::string& command_line) {
   return {
       {"run", "run KinectFusion over a sequence: times, accuracy, a record",
        [command_line](CLI::App& app) { return add_run(app, command_line); }},
+      {"compare", "what differs between runs: ratios of all figures with intervals", add_compare},
       {"evaluate", "compare two trajectories: absolute trajectory and relative pose error",
        add_evaluate},
       {"generate", "render a sequence, of the living room or an own mesh, to disk", add_generate},

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "all_parameters.h"
 #include "commands.h"
@@ -20,6 +21,7 @@
 #include "help.h"
 #include "interrupt.h"
 #include "io/files.h"
+#include "limit_options.h"
 #include "meters/clock.h"
 #include "meters/run_meters.h"
 #include "open_sequence.h"
@@ -44,6 +46,7 @@ constexpr const char* footer =
     "  slambench run\n"
     "  slambench run rgbd_dataset_freiburg1_xyz -c 2 -s 6 -p 0.5,0.5,0.35\n"
     "  slambench run recording.raw --preset slambench1 --out results/mine\n"
+    "  slambench run --fail-if 'ate_rmse_m>0.05' --fail-if 'fps<30'\n"
     "\n"
     "The command line is stronger than the configuration file, the file than the\n"
     "preset, the preset than what suits the sequence (its own slambench.toml, else\n"
@@ -56,6 +59,7 @@ struct RunArguments {
   std::string command_line;
   CLI::Option* sequence_option = nullptr;
   std::string sequence, input_file, preset, config;
+  std::vector<std::string> limits;
   AllParameters parameters;
   ParameterOptions options;
 };
@@ -209,8 +213,9 @@ std::string notes_text(const Record& record, const SequenceInfo& info) {
   return text;
 }
 
-ExitStatus report(const Record& record, const SequenceInfo& info, const std::string& folder,
-                  const OutputParameters& output) {
+/// Throws when the run does not count.
+void report(const Record& record, const SequenceInfo& info, const std::string& folder,
+            const OutputParameters& output) {
   if (output.json) {
     print(record_json(record));
   } else if (!output.quiet) {
@@ -224,7 +229,6 @@ ExitStatus report(const Record& record, const SequenceInfo& info, const std::str
     throw Error(ExitStatus::failed, fmt::format("the result is not valid: {}; see {}",
                                                 fmt::join(record.invalid_reasons, "; "), folder));
   }
-  return ExitStatus::ok;
 }
 
 /// The power of the machine at rest.
@@ -252,6 +256,7 @@ std::string progress_title(const std::string& sequence, const RunNumber& run) {
 ExitStatus run(RunArguments& arguments) {
   const auto started_at =
       std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  const std::vector<Limit> limits = parse_limits(arguments.limits, false);
   RunPlan plan = make_plan(arguments);
   AllParameters& p = arguments.parameters;
   const InterruptFlag interrupt;
@@ -298,7 +303,10 @@ ExitStatus run(RunArguments& arguments) {
   };
   const Record record = repeat_runs(p.run, one_run);
   write_outputs(record, *system, p.output, *folder);
-  return report(record, info, folder->path(), p.output);
+  report(record, info, folder->path(), p.output);
+  const StoredRun stored = parse_stored_run(record_json(record), folder->path());
+  throw_if_violated(violations(limits, stored));
+  return ExitStatus::ok;
 }
 
 }  // namespace
@@ -324,6 +332,7 @@ Action add_run(CLI::App& command, const std::string& command_line) {
       ->type_name("NAME");
   command.add_option("--config", arguments->config, "parameters from a TOML file")
       ->type_name("FILE");
+  add_limit_option(command, &arguments->limits, false);
   arguments->options.add(command, arguments->parameters.lists());
   command.footer(footer);
   return [arguments] { return run(*arguments); };

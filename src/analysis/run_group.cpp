@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include "analysis/run_group.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <set>
+
+#include "core/error.h"
+
+namespace slambench {
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = RunDifference::Kind;
+
+constexpr const char* nothing = "nothing";
+
+/// Parameters that say how to compute, not what. A preset only names values that are all there.
+constexpr std::array<std::string_view, 6> implementation_parameters = {
+    "backend", "device", "threads", "map", "fused", "preset"};
+
+constexpr std::array<std::string_view, 10> build_places = {
+    "provenance.version",    "provenance.commit", "provenance.compiler", "provenance.flags",
+    "provenance.build_type", "provenance.cpu",    "provenance.cores",    "provenance.os",
+    "provenance.device",     "provenance.driver"};
+
+constexpr std::array<std::string_view, 9> input_places = {
+    "sequence.input_hash",        "sequence.name",      "sequence.input_size.width",
+    "sequence.input_size.height", "sequence.camera.fx", "sequence.camera.fy",
+    "sequence.camera.cx",         "sequence.camera.cy", "sequence.units_per_m"};
+
+bool is_result_folder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path / "record.json", error);
+}
+
+/// A folder of result folders stands for these, in order of their names.
+std::vector<std::string> expanded(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error) || is_result_folder(path)) return {path};
+  std::vector<std::string> found;
+  for (fs::directory_iterator it(path, error), end; !error && it != end; it.increment(error)) {
+    if (!it->path().filename().string().starts_with('.') && is_result_folder(it->path())) {
+      found.push_back(it->path());
+    }
+  }
+  if (found.empty()) {
+    throw InputError(
+        fmt::format("{}: found a folder without a record.json, expected a result "
+                    "folder or a folder of result folders",
+                    path));
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// The parts between commas, unless the whole is a path.
+std::vector<std::string> parts(const std::string& argument) {
+  std::error_code error;
+  if (fs::exists(argument, error)) return {argument};
+  std::vector<std::string> list;
+  for (std::size_t begin = 0; begin <= argument.size();) {
+    const std::size_t end = std::min(argument.find(',', begin), argument.size());
+    list.push_back(argument.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return list;
+}
+
+void require_result(const StoredRun& run) {
+  const auto reason = [&](const std::string& words) {
+    throw InputError(fmt::format("{}: the run {}, expected one that counts", run.path, words));
+  };
+  if (!run.complete()) reason("was interrupted");
+  if (!run.valid()) reason("is not valid");
+}
+
+std::string value_at(const StoredRun& run, const std::string& place) {
+  if (const auto it = run.texts.find(place); it != run.texts.end()) return it->second;
+  const auto it = run.numbers.find(place);
+  return it == run.numbers.end() ? nothing : fmt::format("{}", it->second);
+}
+
+/// "kinectfusion.volume-size" of "parameters.kinectfusion.volume-size.value"; else nothing.
+std::string parameter_in(const std::string& place) {
+  constexpr std::string_view head = "parameters.", tail = ".value";
+  if (!place.starts_with(head) || !place.ends_with(tail)) return "";
+  return place.substr(head.size(), place.size() - head.size() - tail.size());
+}
+
+/// Where the results go and how often the run is repeated changes none of them.
+bool is_compared(const std::string& parameter) { return !parameter.starts_with("output."); }
+
+std::set<std::string> parameters_of(const StoredRun& base, const StoredRun& other) {
+  std::set<std::string> names;
+  for (const StoredRun* run : {&base, &other}) {
+    for (const auto& [place, value] : run->texts) {
+      const std::string parameter = parameter_in(place);
+      if (!parameter.empty() && is_compared(parameter)) names.insert(parameter);
+    }
+  }
+  return names;
+}
+
+std::string parameter(const StoredRun& run, const std::string& group_and_name) {
+  return run.text(fmt::format("parameters.{}.value", group_and_name));
+}
+
+std::string short_text(const std::string& text) {
+  constexpr std::size_t most = 40;
+  return text.size() <= most ? text : text.substr(0, most - 3) + "...";
+}
+
+std::string list_text(const std::vector<RunDifference>& list) {
+  std::string text;
+  for (const RunDifference& d : list) {
+    text += fmt::format("{}{} ({} against {})", text.empty() ? "" : ", ", d.key, short_text(d.base),
+                        short_text(d.other));
+  }
+  return text;
+}
+
+}  // namespace
+
+bool in_real_time(const StoredRun& run) {
+  const std::string fps = parameter(run, "run.fps");
+  return parameter(run, "run.real-time") == "true" || !(fps.empty() || fps == "0");
+}
+
+std::vector<RunDifference> differences(const StoredRun& base, const StoredRun& other) {
+  std::vector<RunDifference> found;
+  const auto add = [&](Kind kind, std::string key, const std::string& place) {
+    const std::string b = value_at(base, place), o = value_at(other, place);
+    if (b != o) found.push_back({kind, std::move(key), b, o});
+  };
+  // In real time the hash tells which frames were in time, not what the sequence holds. Without,
+  // equal hashes are equal sequences, whatever they are called.
+  const bool real_time = in_real_time(base) || in_real_time(other);
+  const bool same_input =
+      !real_time && base.text("sequence.input_hash") == other.text("sequence.input_hash");
+  for (const std::string_view place : input_places) {
+    if (place == "sequence.input_hash" && real_time) continue;
+    if (place == "sequence.name" && same_input) continue;
+    add(Kind::task, std::string(place), std::string(place));
+  }
+  for (const std::string& full : parameters_of(base, other)) {
+    const std::string name = full.substr(full.find('.') + 1);
+    const bool how = std::find(implementation_parameters.begin(), implementation_parameters.end(),
+                               name) != implementation_parameters.end();
+    add(how ? Kind::implementation : Kind::task, name, fmt::format("parameters.{}.value", full));
+  }
+  for (const std::string_view place : build_places) {
+    add(Kind::build, std::string(place.substr(place.find('.') + 1)), std::string(place));
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.kind < b.kind; });
+  return found;
+}
+
+void require_same_task(const RunGroup& base, const RunGroup& other,
+                       const std::vector<std::string>& allowed) {
+  std::vector<RunDifference> refused = differences(base.runs.front(), other.runs.front());
+  std::erase_if(refused, [&](const RunDifference& d) {
+    return d.kind != Kind::task ||
+           std::find(allowed.begin(), allowed.end(), d.key) != allowed.end();
+  });
+  if (refused.empty()) return;
+  throw InputError(
+      fmt::format("{} and {} did not compute the same: {}; --allow KEY lets one of "
+                  "these differ, --allow-different all",
+                  base.name, other.name, list_text(refused)));
+}
+
+RunGroup read_run_group(const std::string& argument) {
+  RunGroup group;
+  group.name = argument;
+  for (const std::string& part : parts(argument)) {
+    for (const std::string& path : expanded(part)) {
+      group.runs.push_back(read_stored_run(path));
+      require_result(group.runs.back());
+    }
+  }
+  std::stable_sort(group.runs.begin(), group.runs.end(),
+                   [](const StoredRun& a, const StoredRun& b) {
+                     return a.text("provenance.started_at") < b.text("provenance.started_at");
+                   });
+  for (const StoredRun& run : group.runs) {
+    const auto list = differences(group.runs.front(), run);
+    if (list.empty()) continue;
+    throw InputError(
+        fmt::format("{}: its runs are not repeats of one another: {} and {} differ "
+                    "in {}",
+                    argument, group.runs.front().path, run.path, list_text(list)));
+  }
+  return group;
+}
+
+}  // namespace slambench

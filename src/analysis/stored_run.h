@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace slambench {
+
+/// A run as its record.json tells it, whatever version of this program wrote it. A place is where
+/// a value stands in that file: "time.fps_computation".
+struct StoredRun {
+  std::string path;                           ///< of the record.json, for messages
+  std::map<std::string, double> numbers;      ///< by place
+  std::map<std::string, std::string> texts;   ///< by place; booleans are "true" and "false"
+  std::map<std::string, std::string> absent;  ///< by place: why it was not measured
+
+  /// By place: the value of each measured repeat of the run (--repeat), where there are several.
+  std::map<std::string, std::vector<double>> repeats;
+
+  /// "" when there is none.
+  std::string text(const std::string& place) const;
+  /// Measured repeats.
+  std::size_t run_count() const { return repeats.empty() ? 1 : repeats.begin()->second.size(); }
+  bool complete() const { return text("complete") == "true"; }
+  bool valid() const { return text("valid") == "true"; }
+};
+
+/// From a result folder or a record.json. Throws InputError naming the file for what cannot be read
+/// or is not the record of a run.
+StoredRun read_stored_run(const std::string& path);
+
+/// The same for a text that is already in memory; `path` is for messages.
+StoredRun parse_stored_run(std::string_view json, const std::string& path);
+
+/// The columns of a frames.csv, by name: a number a frame, NaN where a field is empty.
+using FrameColumns = std::map<std::string, std::vector<double>, std::less<>>;
+
+/// Of the frames.csv beside the record. Throws InputError naming file, line and what was expected.
+FrameColumns read_frame_columns(const StoredRun& run);
+FrameColumns parse_frame_columns(std::string_view csv, const std::string& path);
+
+}  // namespace slambench
