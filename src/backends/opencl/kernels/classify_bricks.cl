@@ -7,14 +7,8 @@
 #define FREE 1    // every voxel is measured as free space, a truncated distance of 1
 #define VARIED 2  // every voxel has to be looked at
 
-inline float least_of(float8 v) {
-  const float4 a = fmin(v.lo, v.hi);
-  return fmin(fmin(a.x, a.y), fmin(a.z, a.w));
-}
-inline float greatest_of(float8 v) {
-  const float4 a = fmax(v.lo, v.hi);
-  return fmax(fmax(a.x, a.y), fmax(a.z, a.w));
-}
+inline float least_of(float8 v) { return FOLD_4(fmin, fmin(v.lo, v.hi)); }
+inline float greatest_of(float8 v) { return FOLD_4(fmax, fmax(v.lo, v.hi)); }
 
 inline int change_of(float8 x, float8 y, float8 z, global const float2* ranges, Size tiles,
                      Size size, IntegrateParameters p, float tolerance_m) {

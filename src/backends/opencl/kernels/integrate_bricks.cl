@@ -62,13 +62,10 @@ KERNEL integrate_bricks(global const int* varied, global int* counters,
     STORE(TO_SHORTS(tsdf), new_tsdf + i);
     STORE(TO_SHORTS(weight), new_weights + i);
   }
-#define NOTE(lane, i)                        \
-  if (any_changed lane) atomic_or(&changed, 1); \
-  if (any_differs lane) atomic_or(&differs, 1); \
-  atomic_min(&least_weight, least lane);     \
-  atomic_max(&greatest_weight, greatest lane);
-  EVERY(NOTE)
-#undef NOTE
+  if (ANY(any_changed)) atomic_or(&changed, 1);
+  if (ANY(any_differs)) atomic_or(&differs, 1);
+  atomic_min(&least_weight, LEAST_OF_LANES(least));
+  atomic_max(&greatest_weight, GREATEST_OF_LANES(greatest));
   barrier(CLK_LOCAL_MEM_FENCE);
 
   if (get_local_id(0) == 0) {

@@ -26,7 +26,7 @@ typedef int Ints;
 #define PACKET_WIDTH 1
 #define COLUMN_OF_LANE 0
 #define ROW_OF_LANE 0
-#define SUM_OF_LANES(v) (v)
+#define FOLD(f, v) (v)
 #elif LANES == 8
 typedef float8 Floats;
 typedef int8 Ints;
@@ -40,7 +40,7 @@ typedef int8 Ints;
 #define IOTA (int8)(0, 1, 2, 3, 4, 5, 6, 7)
 #define LOAD(p) vload8(0, p)
 #define STORE(v, p) vstore8(v, 0, p)
-#define SUM_OF_LANES(v) sum_of_4(v.lo + v.hi)
+#define FOLD(f, v) FOLD_4(f, f((v).lo, (v).hi))
 #elif LANES == 16
 typedef float16 Floats;
 typedef int16 Ints;
@@ -58,7 +58,7 @@ typedef int16 Ints;
 #define IOTA (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
 #define LOAD(p) vload16(0, p)
 #define STORE(v, p) vstore16(v, 0, p)
-#define SUM_OF_LANES(v) sum_of_4((v.lo + v.hi).lo + (v.lo + v.hi).hi)
+#define FOLD(f, v) FOLD_4(f, f(f((v).lo, (v).hi).lo, f((v).lo, (v).hi).hi))
 #else
 #error "LANES: expected 1, 8 or 16"
 #endif
@@ -68,13 +68,21 @@ typedef int16 Ints;
 #define PACKET_WIDTH 4
 #define COLUMN_OF_LANE (IOTA & 3)
 #define ROW_OF_LANE (IOTA >> 2)
-#define ANY(mask) any(mask)
-#define ALL(mask) all(mask)
 #define FIRST(v) (v).s0
+// A tree: the drivers' any() and all() look at lane after lane.
+#define ANY(mask) FOLD(BITS_OF_EITHER, mask)
+#define ALL(mask) FOLD(BITS_OF_BOTH, mask)
 #endif
 #define PACKET_HEIGHT (LANES / PACKET_WIDTH)
 
-inline float sum_of_4(float4 v) { return (v.x + v.y) + (v.z + v.w); }
+// One value of all lanes, by halves: f(a, b) of two.
+#define FOLD_4(f, v) f(f((v).lo, (v).hi).x, f((v).lo, (v).hi).y)
+#define BITS_OF_EITHER(a, b) ((a) | (b))
+#define BITS_OF_BOTH(a, b) ((a) & (b))
+#define SUM_OF(a, b) ((a) + (b))
+#define SUM_OF_LANES(v) FOLD(SUM_OF, v)
+#define LEAST_OF_LANES(v) FOLD(min, v)
+#define GREATEST_OF_LANES(v) FOLD(max, v)
 
 // The elements of an array at an index a lane.
 inline Floats gather(global const float* p, Ints index) {

@@ -12,14 +12,8 @@
 #define LOWER(p, v) atomic_min(p, v)
 #endif
 
-inline float least_of(float8 v) {
-  const float4 a = fmin(v.lo, v.hi);
-  return fmin(fmin(a.x, a.y), fmin(a.z, a.w));
-}
-inline float greatest_of(float8 v) {
-  const float4 a = fmax(v.lo, v.hi);
-  return fmax(fmax(a.x, a.y), fmax(a.z, a.w));
-}
+inline float least_of(float8 v) { return FOLD_4(fmin, fmin(v.lo, v.hi)); }
+inline float greatest_of(float8 v) { return FOLD_4(fmax, fmax(v.lo, v.hi)); }
 
 // Samples that read a brick lie up to a voxel beside it, at the volume's border anywhere beyond its
 // last voxels' centres, and a little more for rounding.

@@ -13,8 +13,7 @@ KERNEL sum_groups(global float* total, global const float* partial, int groups) 
       sum += values;
       count += convert_int8(values);
     }
-    const int4 half_count = count.lo + count.hi;
-    const int whole = half_count.x + half_count.y + half_count.z + half_count.w;
-    total[column] = column < COUNTS ? sum_of_4(sum.lo + sum.hi) : as_float(whole);
+    const int whole = FOLD_4(SUM_OF, count.lo + count.hi);
+    total[column] = column < COUNTS ? FOLD_4(SUM_OF, sum.lo + sum.hi) : as_float(whole);
   }
 }
