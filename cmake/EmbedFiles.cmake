@@ -10,6 +10,7 @@ function(slambench_embed_files target header)
   set(assembly ".section .rodata\n")
   set(declarations "")
   set(functions "")
+  set(rows "")
   set(files "")
   set(arguments "${ARGN}")
   while(arguments)
@@ -25,6 +26,7 @@ function(slambench_embed_files target header)
     string(APPEND declarations "extern const char ${begin}[];\nextern const char ${end}[];\n")
     string(APPEND functions "inline std::string_view ${name}() {\n"
            "  return {${begin}, static_cast<std::size_t>(${end} - ${begin})};\n}\n")
+    string(APPEND rows "  if (name == \"${name}\") return ${name}();\n")
   endwhile()
   # An object without this note makes the linker ask for an executable stack.
   string(APPEND assembly ".section .note.GNU-stack,\"\",%progbits\n")
@@ -42,9 +44,13 @@ extern \"C\" {
 ${declarations}}
 
 ${functions}
+inline std::string_view find(std::string_view name) {
+${rows}  return {};
+}
+
 }  // namespace slambench::${space}
 ")
   set_source_files_properties("${source}" PROPERTIES LANGUAGE ASM OBJECT_DEPENDS "${files}")
   target_sources(${target} PRIVATE "${source}")
-  target_include_directories(${target} PRIVATE "${folder}")
+  target_include_directories(${target} PUBLIC "${folder}")
 endfunction()

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "analysis/frame_columns.h"
 #include "core/error.h"
 
 namespace slambench {
@@ -74,9 +75,9 @@ bool took_turns(const RunGroup& base, const RunGroup& other) {
 FrameColumns measured_frames(const RunGroup& group) {
   namespace fs = std::filesystem;
   std::error_code error;
-  const StoredRun& run = group.runs.front();
-  if (!fs::exists(fs::path(run.path).parent_path() / "frames.csv", error)) return {};
-  FrameColumns columns = read_frame_columns(run);
+  const fs::path file = fs::path(group.runs.front().path).parent_path() / "frames.csv";
+  if (!fs::exists(file, error)) return {};
+  FrameColumns columns = read_frame_columns(file);
   const std::vector<double> warmup = columns["warmup"];  // empty of a dropped frame
   for (auto& [name, column] : columns) {
     std::size_t i = 0;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/comparison.h"
+#include "io/text.h"
 
 namespace slambench {
 namespace {
@@ -243,14 +244,6 @@ std::string markdown_of(const Comparison& c) {
   return text;
 }
 
-/// A field of RFC 4180.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char ch : text) quoted += ch == '"' ? std::string("\"\"") : std::string(1, ch);
-  return quoted + "\"";
-}
-
 Json json_of(const FigureComparison& f) {
   Json json = {
       {"figure", f.figure->name}, {"unit", f.figure->unit}, {"base", f.base}, {"other", f.other}};
@@ -315,8 +308,8 @@ std::string comparison_csv(const std::vector<Comparison>& comparisons) {
   const auto optional = [](bool has, double value) { return has ? fmt::format("{}", value) : ""; };
   for (const Comparison& c : comparisons) {
     for (const FigureComparison& f : c.figures) {
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", field(c.base.name),
-                          field(c.other.name), c.base.runs, c.other.runs, f.figure->name,
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_field(c.base.name),
+                          csv_field(c.other.name), c.base.runs, c.other.runs, f.figure->name,
                           f.figure->unit, f.base, f.other,
                           optional(f.ratio.has_value(), f.ratio.value_or(0)),
                           optional(f.interval.has_value(), f.interval ? f.interval->low : 0),

@@ -10,6 +10,7 @@
 
 #include "analysis/figure.h"
 #include "core/error.h"
+#include "core/trimmed.h"
 #include "io/text.h"
 
 namespace slambench {
@@ -25,13 +26,6 @@ constexpr std::array<std::pair<std::string_view, Relation>, 6> relations = {
      {"!=", Relation::unequal},
      {"<", Relation::less},
      {">", Relation::more}}};
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t";
-  const std::size_t begin = text.find_first_not_of(blanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
 
 [[noreturn]] void reject(std::string_view text, const std::string& message) {
   throw UsageError(fmt::format("limit '{}': {}", text, message));

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <set>
 
+#include "analysis/result_folders.h"
 #include "core/error.h"
 
 namespace slambench {
@@ -33,28 +34,17 @@ constexpr std::array<std::string_view, 9> input_places = {
     "sequence.input_size.height", "sequence.camera.fx", "sequence.camera.fy",
     "sequence.camera.cx",         "sequence.camera.cy", "sequence.units_per_m"};
 
-bool is_result_folder(const fs::path& path) {
-  std::error_code error;
-  return fs::is_regular_file(path / "record.json", error);
-}
-
 /// A folder of result folders stands for these, in order of their names.
 std::vector<std::string> expanded(const std::string& path) {
   std::error_code error;
   if (!fs::is_directory(path, error) || is_result_folder(path)) return {path};
-  std::vector<std::string> found;
-  for (fs::directory_iterator it(path, error), end; !error && it != end; it.increment(error)) {
-    if (!it->path().filename().string().starts_with('.') && is_result_folder(it->path())) {
-      found.push_back(it->path());
-    }
-  }
+  std::vector<std::string> found = result_folders_in(path);
   if (found.empty()) {
     throw InputError(
         fmt::format("{}: found a folder without a record.json, expected a result "
                     "folder or a folder of result folders",
                     path));
   }
-  std::sort(found.begin(), found.end());
   return found;
 }
 
@@ -92,7 +82,7 @@ std::string parameter_in(const std::string& place) {
   return place.substr(head.size(), place.size() - head.size() - tail.size());
 }
 
-/// Where the results go and how often the run is repeated changes none of them.
+/// Where the results go changes none of them.
 bool is_compared(const std::string& parameter) { return !parameter.starts_with("output."); }
 
 std::set<std::string> parameters_of(const StoredRun& base, const StoredRun& other) {

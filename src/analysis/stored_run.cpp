@@ -4,15 +4,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "core/error.h"
 #include "io/files.h"
-#include "io/text.h"
 
 namespace slambench {
 namespace {
@@ -44,26 +40,6 @@ void read_repeats(const Json& figures, StoredRun* run) {
     std::vector<double>& list = run->repeats[place];
     for (const Json& value : *values) list.push_back(value.is_number() ? value.get<double>() : 0);
   }
-}
-
-/// The next field of a row, which is shortened by it. No field of a frames.csv is quoted.
-std::string_view take_field(std::string_view* row) {
-  const std::size_t end = row->find(',');
-  const std::string_view field = row->substr(0, end);
-  *row = end == std::string_view::npos ? std::string_view() : row->substr(end + 1);
-  return field;
-}
-
-std::string_view take_line(std::string_view* text) {
-  const std::size_t end = text->find('\n');
-  std::string_view line = text->substr(0, end);
-  *text = end == std::string_view::npos ? std::string_view() : text->substr(end + 1);
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  return line;
-}
-
-std::size_t field_count(std::string_view row) {
-  return 1 + static_cast<std::size_t>(std::count(row.begin(), row.end(), ','));
 }
 
 }  // namespace
@@ -107,37 +83,6 @@ StoredRun read_stored_run(const std::string& path) {
   const fs::path file =
       fs::is_directory(path, error) ? fs::path(path) / record_name : fs::path(path);
   return parse_stored_run(read_file(file), file);
-}
-
-FrameColumns parse_frame_columns(std::string_view csv, const std::string& path) {
-  std::string_view header = take_line(&csv);
-  const std::size_t width = field_count(header);
-  std::vector<std::vector<double>*> order;
-  FrameColumns columns;
-  for (std::size_t i = 0; i < width; ++i) {
-    order.push_back(&columns[std::string(take_field(&header))]);
-  }
-  for (int number = 2; !csv.empty(); ++number) {
-    std::string_view row = take_line(&csv);
-    const auto reject = [&](const std::string& found, const std::string& expected) {
-      throw InputError(path, fmt::format("line {}", number), found, expected);
-    };
-    if (field_count(row) != width) {
-      reject(fmt::format("{} fields", field_count(row)), fmt::format("{}", width));
-    }
-    for (std::vector<double>* column : order) {
-      const std::string_view field = take_field(&row);
-      const auto value = field.empty() ? std::optional<double>(std::nan("")) : parse_finite(field);
-      if (!value) reject(quote(field), "a number");
-      column->push_back(*value);
-    }
-  }
-  return columns;
-}
-
-FrameColumns read_frame_columns(const StoredRun& run) {
-  const std::string file = fs::path(run.path).parent_path() / "frames.csv";
-  return parse_frame_columns(read_file(file), file);
 }
 
 }  // namespace slambench

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #pragma once
 
-#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -35,12 +34,5 @@ StoredRun read_stored_run(const std::string& path);
 
 /// The same for a text that is already in memory; `path` is for messages.
 StoredRun parse_stored_run(std::string_view json, const std::string& path);
-
-/// The columns of a frames.csv, by name: a number a frame, NaN where a field is empty.
-using FrameColumns = std::map<std::string, std::vector<double>, std::less<>>;
-
-/// Of the frames.csv beside the record. Throws InputError naming file, line and what was expected.
-FrameColumns read_frame_columns(const StoredRun& run);
-FrameColumns parse_frame_columns(std::string_view csv, const std::string& path);
 
 }  // namespace slambench

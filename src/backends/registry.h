@@ -36,7 +36,7 @@ struct BackendEntry {
   std::string_view sentence;
   Availability (*availability)();
   std::vector<std::string> (*devices)();
-  std::unique_ptr<Backend> (*create)(const BackendOptions&);
+  std::unique_ptr<Backend> (*create)(const BackendOptions&, int device);  ///< an index
 };
 
 /// Every backend this project has, slowest first, whether built in or not: what is not says so.

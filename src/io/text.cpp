@@ -56,4 +56,11 @@ std::string quote(std::string_view text) {
   return "'" + shown + (text.size() > longest ? "...'" : "'");
 }
 
+std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string quoted(1, '"');
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  return quoted + '"';
+}
+
 }  // namespace slambench

@@ -27,4 +27,7 @@ std::optional<double> parse_finite(std::string_view text);
 /// and bytes that are not ASCII replaced by '?'.
 std::string quote(std::string_view text);
 
+/// A field of a CSV file (RFC 4180): in quotes where it needs them.
+std::string csv_field(std::string_view text);
+
 }  // namespace slambench

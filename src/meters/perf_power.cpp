@@ -8,6 +8,7 @@
 #include <charconv>
 #include <optional>
 
+#include "io/text.h"
 #include "meters/meter.h"
 
 namespace slambench {
@@ -40,7 +41,7 @@ std::vector<int> processors(const SystemFiles& files, const std::string& file) {
   const std::string text = files.text(file);
   const auto fail = [&]() -> int {
     throw MeterError(
-        fmt::format("{}: found '{:.40}', expected a list of processors", files.path(file), text));
+        fmt::format("{}: found {}, expected a list of processors", files.path(file), quote(text)));
   };
   std::vector<int> list;
   const char* at = text.data();
@@ -73,7 +74,7 @@ std::uint64_t event_config(const SystemFiles& files, const std::string& file) {
     const auto result = std::from_chars(text.data() + head.size(), end, config, 16);
     if (result.ec == std::errc{} && result.ptr == end) return config;
   }
-  throw MeterError(fmt::format("{}: found '{:.40}', expected event=0x...", files.path(file), text));
+  throw MeterError(fmt::format("{}: found {}, expected event=0x...", files.path(file), quote(text)));
 }
 
 /// The package that a processor lies in; the index of the processor's line where that is not told.
@@ -91,7 +92,7 @@ std::unique_ptr<Meter> open_event(const MeterContext& context, MeterInfo info,
   const std::string unit = files.text(event + ".unit");
   if (unit != "Joules") {
     throw MeterError(
-        fmt::format("{}.unit: found '{:.40}', expected Joules", files.path(event), unit));
+        fmt::format("{}.unit: found {}, expected Joules", files.path(event), quote(unit)));
   }
   info.resolution = files.number(event + ".scale");
   const auto type = static_cast<std::uint32_t>(files.count(fmt::format("{}/type", folder)));

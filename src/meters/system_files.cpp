@@ -15,20 +15,15 @@
 #include <cstring>
 #include <filesystem>
 
+#include "core/trimmed.h"
+#include "io/text.h"
+
 namespace slambench {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_bytes = std::size_t{64} << 10;
-
-std::string trimmed(std::string text) {
-  constexpr const char* blanks = " \t\r\n\0";
-  const auto last = text.find_last_not_of(std::string_view(blanks, 5));
-  text.erase(last == std::string::npos ? 0 : last + 1);
-  text.erase(0, std::min(text.size(), text.find_first_not_of(blanks)));
-  return text;
-}
 
 /// Digits compare as numbers.
 bool natural_less(const std::string& a, const std::string& b) {
@@ -54,7 +49,7 @@ T parsed(const std::string& text, const std::string& path, const char* expected)
   T value{};
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
   if (result.ec != std::errc{} || result.ptr != text.data() + text.size()) {
-    throw MeterError(fmt::format("{}: found '{:.40}', expected {}", path, text, expected));
+    throw MeterError(fmt::format("{}: found {}, expected {}", path, quote(text), expected));
   }
   return value;
 }
@@ -99,7 +94,7 @@ std::string SystemFiles::text(std::string_view file) const {
   ::close(descriptor);
   errno = error;
   if (count < 0) fail();
-  return trimmed(std::move(contents));
+  return std::string(trimmed(contents, std::string_view(" \t\r\n\0", 5)));
 }
 
 std::string SystemFiles::text_or_empty(std::string_view file) const {
@@ -118,7 +113,7 @@ double SystemFiles::number(std::string_view file) const {
   const std::string found = text(file);
   const auto value = parsed<double>(found, path(file), "a number");
   if (!std::isfinite(value)) {
-    throw MeterError(fmt::format("{}: found '{:.40}', expected a number", path(file), found));
+    throw MeterError(fmt::format("{}: found {}, expected a number", path(file), quote(found)));
   }
   return value;
 }

@@ -26,17 +26,12 @@ constexpr std::size_t usual_pictures = 4;              // frames a run
 
 /// The figure at a place of the record ("time.computation_s.mean"), if it has it.
 std::optional<double> figure(const Json& record, std::string_view place) {
-  const Json* here = &record;
-  for (;;) {
-    const std::size_t end = place.find('.');
-    const auto next = here->find(std::string(place.substr(0, end)));
-    if (!here->is_object() || next == here->end()) return {};
-    here = &*next;
-    if (end == std::string_view::npos) break;
-    place.remove_prefix(end + 1);
-  }
-  if (!here->is_number()) return {};
-  return here->get<double>();
+  std::string path(1, '/');
+  path += place;
+  std::replace(path.begin(), path.end(), '.', '/');
+  const Json::json_pointer pointer(path);
+  if (!record.contains(pointer) || !record.at(pointer).is_number()) return {};
+  return record.at(pointer).get<double>();
 }
 
 /// The rows of every `step`-th frame, times `factor`, rounded to `decimals`; null where empty.

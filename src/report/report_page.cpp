@@ -86,8 +86,7 @@ std::string report_page(const std::vector<ReportRun>& runs, const ReportOptions&
   if (!can_draw_charts()) {
     throw UnavailableError(
         "unavailable: this program was built without plotly.js, which draws the charts; install "
-        "the "
-        "Debian package python3-plotly (or: pip install plotly), configure and build again");
+        "the Debian package python3-plotly (or: pip install plotly), configure and build again");
   }
   return fill(page_files::page_template(),
               {{"title", escape_html(options.title)},

@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <set>
 #include <string_view>
 #include <system_error>
 
+#include "analysis/result_folders.h"
 #include "core/error.h"
 #include "io/files.h"
 #include "io/text.h"
@@ -23,23 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-bool is_result_folder(const fs::path& folder) {
-  std::error_code ignored;
-  return fs::is_regular_file(folder / "record.json", ignored);
-}
-
-std::vector<std::string> folders_inside(const std::string& folder) {
-  std::vector<std::string> found;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const bool hidden = entry.path().filename().string().starts_with(".");
-    if (!hidden && is_result_folder(entry.path())) found.push_back(entry.path());
-  }
-  if (error) throw InputError(fmt::format("{}: {}", folder, error.message()));
-  std::sort(found.begin(), found.end());
-  return found;
-}
 
 Json read_record(const std::string& path) {
   Json record = Json::parse(read_file(path), nullptr, false);
@@ -58,48 +41,6 @@ Json read_record(const std::string& path) {
     throw InputError(path, part, record.contains(part) ? "something else" : "nothing", "an object");
   }
   return record;
-}
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (;;) {
-    const std::size_t end = text.find(separator);
-    parts.push_back(text.substr(0, end));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
-}
-
-FrameColumns read_frame_columns(const std::string& path) {
-  const std::string text = read_file(path);
-  FrameColumns columns;
-  std::vector<std::string_view> names;
-  int line_number = 0;
-  for (std::string_view line : split(text, '\n')) {
-    ++line_number;
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    if (line.empty()) continue;
-    const auto fields = split(line, ',');
-    if (names.empty()) {
-      names = fields;
-      continue;
-    }
-    const std::string place = fmt::format("line {}", line_number);
-    if (fields.size() != names.size()) {
-      throw InputError(path, place, fmt::format("{} fields", fields.size()),
-                       fmt::format("{}", names.size()));
-    }
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-      const auto number = parse_finite(fields[i]);
-      if (!number && !fields[i].empty()) {
-        throw InputError(path, fmt::format("{}: {}", place, quote(names[i])), quote(fields[i]),
-                         "a number or nothing");
-      }
-      columns[std::string(names[i])].push_back(
-          number.value_or(std::numeric_limits<double>::quiet_NaN()));
-    }
-  }
-  return columns;
 }
 
 /// Whether frames.csv is of the same run as the record.
@@ -125,13 +66,14 @@ std::vector<Picture> list_pictures(const fs::path& folder) {
   std::vector<Picture> pictures;
   std::error_code missing;
   for (const auto& entry : fs::directory_iterator(folder, missing)) {
-    const std::string name = entry.path().filename();
-    const auto parts = split(name, '_');
-    if (parts.size() != 3 || parts[0] != "frame" || !parts[2].ends_with(".png")) continue;
-    const auto frame = parse_finite(parts[1]);
+    if (entry.path().extension() != ".png") continue;
+    const std::string stem = entry.path().stem();
+    constexpr std::string_view head = "frame_";
+    const std::size_t end = stem.find('_', head.size());
+    if (!stem.starts_with(head) || end == std::string::npos) continue;
+    const auto frame = parse_finite(std::string_view(stem).substr(head.size(), end - head.size()));
     if (!frame || *frame < 0 || *frame > std::numeric_limits<int>::max()) continue;
-    const std::string_view kind = parts[2].substr(0, parts[2].size() - 4);
-    pictures.push_back({static_cast<int>(*frame), std::string(kind), entry.path()});
+    pictures.push_back({static_cast<int>(*frame), stem.substr(end + 1), entry.path()});
   }
   std::sort(pictures.begin(), pictures.end(), [](const Picture& a, const Picture& b) {
     return std::pair(a.frame, a.kind) < std::pair(b.frame, b.kind);
@@ -170,7 +112,7 @@ std::vector<std::string> find_result_folders(const std::vector<std::string>& arg
       add(argument);
       continue;
     }
-    const auto inside = folders_inside(argument);
+    const auto inside = result_folders_in(argument);
     if (inside.empty()) {
       throw InputError(fmt::format(
           "{}: found no record.json, expected a result folder or a folder of them", argument));

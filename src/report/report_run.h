@@ -2,18 +2,14 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #pragma once
 
-#include <functional>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "analysis/frame_columns.h"
 #include "core/trajectory.h"
 
 namespace slambench {
-
-/// The columns of a frames.csv by name: a number a frame, NaN where a field is empty.
-using FrameColumns = std::map<std::string, std::vector<double>, std::less<>>;
 
 /// A picture of a result folder: images/frame_000120_depth.png.
 struct Picture {

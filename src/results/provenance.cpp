@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/processors.h"
+#include "core/trimmed.h"
 #include "results/commit.h"
 
 namespace slambench {
@@ -41,12 +42,8 @@ constexpr ArmPart arm_parts[] = {
 };
 constexpr unsigned implementer_arm = 0x41;
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n\"";
-  const auto first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
+/// What stands around values and words of text files.
+constexpr std::string_view around = " \t\r\n\"";
 
 /// "key SEPARATOR value" lines, in order; other lines are passed over.
 std::vector<std::pair<std::string_view, std::string_view>> key_values(std::string_view text,
@@ -57,7 +54,8 @@ std::vector<std::pair<std::string_view, std::string_view>> key_values(std::strin
     text.remove_prefix(std::min(text.size(), line.size() + 1));
     const auto middle = line.find(separator);
     if (middle == std::string_view::npos) continue;
-    pairs.emplace_back(trimmed(line.substr(0, middle)), trimmed(line.substr(middle + 1)));
+    pairs.emplace_back(trimmed(line.substr(0, middle), around),
+                       trimmed(line.substr(middle + 1), around));
   }
   return pairs;
 }
@@ -153,7 +151,7 @@ Provenance build_and_machine(std::chrono::sys_seconds started_at) {
   p.version = SLAMBENCH_VERSION;
   p.commit = SLAMBENCH_COMMIT;
   p.compiler = SLAMBENCH_COMPILER;
-  p.flags = trimmed(SLAMBENCH_FLAGS);
+  p.flags = trimmed(SLAMBENCH_FLAGS, around);
   p.build_type = SLAMBENCH_BUILD_TYPE;
   p.cpu = cpu_model(system_file("/proc/cpuinfo"));
   p.cores = usable_processors();

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "analysis/figure.h"
+#include "analysis/frame_columns.h"
 #include "core/error.h"
 #include "results/result_folder.h"
 #include "results/sample_record.h"
@@ -55,7 +56,7 @@ TEST(StoredRun, ReadsWhatAResultFolderHolds) {
 TEST(StoredRun, ReadsTheFramesByColumn) {
   const testing::TemporaryFolder folder;
   write_results(folder.path("run"), false, testing::sample_record());
-  const FrameColumns frames = read_frame_columns(read_stored_run(folder.path("run")));
+  const FrameColumns frames = read_frame_columns(folder.path("run/frames.csv"));
   EXPECT_THAT(frames.at("index"), ElementsAre(0, 1, 2, 3, 4));
   EXPECT_THAT(frames.at("dropped"), ElementsAre(0, 0, 1, 0, 0));
   EXPECT_EQ(frames.at("stage_raycast_s")[3], 0.75);

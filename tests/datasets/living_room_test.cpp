@@ -16,6 +16,7 @@
 #include "scene/camera_path.h"
 #include "scene/living_room.h"
 #include "scene/renderer.h"
+#include "support/environment.h"
 #include "support/temporary_folder.h"
 
 namespace slambench {
@@ -246,14 +247,10 @@ TEST_F(LivingRoom, HoldsFramesInMemoryWhenTheCacheCannotBeWritten) {
 }
 
 TEST_F(LivingRoom, NeedsNoHome) {
-  ::unsetenv("XDG_CACHE_HOME");
-  const char* const home = std::getenv("HOME");
-  const std::string kept = home == nullptr ? "" : home;
-  ::unsetenv("HOME");
+  const testing::Environment no_cache("XDG_CACHE_HOME", nullptr), no_home("HOME", nullptr);
   const auto source = open();
   EXPECT_EQ(rendered(*source, 16), 16);
   EXPECT_THAT(source->info().notes, Contains(HasSubstr("held in memory")));
-  if (home != nullptr) ::setenv("HOME", kept.c_str(), 1);
 }
 
 TEST_F(LivingRoom, RemovesOldLeftovers) {

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "support/environment.h"
 #include "support/temporary_folder.h"
 
 namespace slambench {
@@ -184,36 +185,19 @@ TEST(PiecewiseFile, SaysWhyItCannotBeOpened) {
             pipe.path + ": cannot read: it is not a file");
 }
 
-/// Sets an environment variable, or unsets it, for the time it lives.
-class Environment {
- public:
-  Environment(const char* name, const char* value) : name_(name) {
-    if (const char* const before = std::getenv(name)) before_ = before;
-    set(value);
-  }
-  ~Environment() { set(before_ ? before_->c_str() : nullptr); }
-  Environment(const Environment&) = delete;
-  Environment& operator=(const Environment&) = delete;
-
- private:
-  void set(const char* value) { value != nullptr ? ::setenv(name_, value, 1) : ::unsetenv(name_); }
-  const char* name_;
-  std::optional<std::string> before_;
-};
-
 TEST(CacheFolder, FollowsTheXdgSpecification) {
-  const Environment home("HOME", "/home/someone");
+  const testing::Environment home("HOME", "/home/someone");
   {
-    const Environment xdg("XDG_CACHE_HOME", "/cache");
+    const testing::Environment xdg("XDG_CACHE_HOME", "/cache");
     EXPECT_EQ(cache_folder(), "/cache/slambench");
   }
   {
-    const Environment xdg("XDG_CACHE_HOME", "relative");
+    const testing::Environment xdg("XDG_CACHE_HOME", "relative");
     EXPECT_EQ(cache_folder(), "/home/someone/.cache/slambench");
   }
-  const Environment xdg("XDG_CACHE_HOME", nullptr);
+  const testing::Environment xdg("XDG_CACHE_HOME", nullptr);
   EXPECT_EQ(cache_folder(), "/home/someone/.cache/slambench");
-  const Environment no_home("HOME", nullptr);
+  const testing::Environment no_home("HOME", nullptr);
   EXPECT_THAT(message_of<UnavailableError>([] { cache_folder(); }), HasSubstr("HOME"));
 }
 

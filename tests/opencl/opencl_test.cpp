@@ -15,6 +15,7 @@
 #include "backends/registry.h"
 #include "core/error.h"
 #include "support/device_images.h"
+#include "support/environment.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -132,9 +133,7 @@ TEST_F(Opencl, MemoryThatTheDeviceDoesNotHaveIsUnavailable) {
 
 TEST_F(Opencl, ProgramsAreKeptAndABrokenOneIsBuiltAnew) {
   const testing::TemporaryFolder folder;
-  const char* before = std::getenv("XDG_CACHE_HOME");
-  const std::string kept = before == nullptr ? "" : before;
-  ::setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+  const testing::Environment cache("XDG_CACHE_HOME", folder.path().c_str());
   const auto halved = [] {
     const auto backend = make_opencl_backend(0, {});
     auto half = backend->make_image<float>({4, 4});
@@ -152,11 +151,6 @@ TEST_F(Opencl, ProgramsAreKeptAndABrokenOneIsBuiltAnew) {
   folder.write("slambench/opencl/" + files[0].filename().string(), "no program");
   EXPECT_EQ(halved(), expected);
   EXPECT_GT(fs::file_size(files[0]), std::string("no program").size());
-  if (before == nullptr) {
-    ::unsetenv("XDG_CACHE_HOME");
-  } else {
-    ::setenv("XDG_CACHE_HOME", kept.c_str(), 1);
-  }
 }
 
 /// The program where the loader finds no platform.

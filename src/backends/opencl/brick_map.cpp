@@ -5,10 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
+#include <vector>
 
 #include "core/error.h"
+#include "kernels/volume_maths.h"
 
 namespace slambench {
 namespace {
@@ -69,8 +70,7 @@ void mark_occupied(Int3 bricks, std::size_t brick, std::vector<std::uint8_t>* oc
 }
 
 HostBricks bricks_of(Int3 bricks, Int3 resolution, const Voxel* voxels) {
-  const std::size_t count = static_cast<std::size_t>(bricks.x) *
-                            static_cast<std::size_t>(bricks.y) * static_cast<std::size_t>(bricks.z);
+  const std::size_t count = voxel_count(bricks);
   std::vector<std::int16_t> tsdf(count * BrickMap::voxels), weights(count * BrickMap::voxels);
   for_each_voxel(bricks, resolution, [&](std::size_t brick, std::size_t i, std::size_t flat, bool) {
     tsdf[brick * BrickMap::voxels + i] = voxels[flat].tsdf;
@@ -130,8 +130,7 @@ BrickMap::BrickMap(Queue& queue, Int3 resolution)
 }
 
 std::size_t BrickMap::count() const {
-  return static_cast<std::size_t>(bricks_.x) * static_cast<std::size_t>(bricks_.y) *
-         static_cast<std::size_t>(bricks_.z);
+  return voxel_count(bricks_);
 }
 
 void BrickMap::reserve(Queue& queue, std::size_t planes, std::size_t used, cl::Buffer* buffer,

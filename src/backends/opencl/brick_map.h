@@ -3,9 +3,7 @@
 #pragma once
 
 #include <CL/opencl.hpp>
-#include <array>
-#include <cstdint>
-#include <vector>
+#include <cstddef>
 
 #include "backends/backend.h"
 #include "backends/opencl/queue.h"

@@ -43,8 +43,7 @@ int pixel_count(Size size) { return static_cast<int>(size.count()); }
 
 /// Packets of an image whose packets do not reach over the end of a row.
 std::size_t row_packets(const DeviceKernel& kernel, Size size) {
-  return static_cast<std::size_t>(kernel.packets(size.width)) *
-         static_cast<std::size_t>(size.height);
+  return kernel.packets(size.width) * static_cast<std::size_t>(size.height);
 }
 
 Size tiles_of(Size size, int tile) {
@@ -186,7 +185,7 @@ void OpenclBackend::do_render_depth(DeviceImage<Rgba8>& image, const DeviceImage
   begin(Kernel::render_depth);
   DeviceKernel& kernel = programs_.get("render_depth");
   const int count = pixel_count(image.size);
-  queue_.launch(kernel, static_cast<std::size_t>(kernel.packets(count)), memory(image),
+  queue_.launch(kernel, kernel.packets(count), memory(image),
                 memory(depth_m), count, near_m, far_m);
 }
 
@@ -194,7 +193,7 @@ void OpenclBackend::do_render_track(DeviceImage<Rgba8>& image, const DeviceImage
   begin(Kernel::render_track);
   DeviceKernel& kernel = programs_.get("render_track");
   const int count = pixel_count(image.size);
-  queue_.launch(kernel, static_cast<std::size_t>(kernel.packets(count)), memory(image),
+  queue_.launch(kernel, kernel.packets(count), memory(image),
                 memory(rows), count);
 }
 
@@ -207,7 +206,7 @@ void OpenclBackend::launch_track(DeviceImage<TrackData>& rows, const DeviceImage
                                  const TrackParameters& parameters) {
   DeviceKernel& kernel = programs_.get("track");
   const int count = pixel_count(vertices.size);
-  queue_.launch(kernel, static_cast<std::size_t>(kernel.packets(count)), memory(rows),
+  queue_.launch(kernel, kernel.packets(count), memory(rows),
                 memory(vertices), memory(normals), count, memory(model_vertices),
                 memory(model_normals), model_vertices.size, parameters);
 }
@@ -236,7 +235,7 @@ Reduction OpenclBackend::do_reduce(const DeviceImage<TrackData>& rows) {
   begin(Kernel::reduce);
   DeviceKernel& kernel = programs_.get("reduce");
   const int count = pixel_count(rows.size);
-  const std::size_t groups = kernel.groups(static_cast<std::size_t>(kernel.packets(count)));
+  const std::size_t groups = kernel.groups(kernel.packets(count));
   queue_.launch_groups(kernel, groups, partial_sums(groups), memory(rows), count);
   return total_of(groups);
 }
@@ -248,7 +247,7 @@ AlignResult OpenclBackend::do_align(const AlignInput& input, double condition) {
   const auto match = [&](std::size_t level, const TrackParameters& at) {
     parameters = at;
     const int count = pixel_count(input.vertices[level]->size);
-    const std::size_t groups = kernel.groups(static_cast<std::size_t>(kernel.packets(count)));
+    const std::size_t groups = kernel.groups(kernel.packets(count));
     queue_.launch_groups(kernel, groups, partial_sums(groups), memory(*input.vertices[level]),
                          memory(*input.normals[level]), count, memory(*input.model_vertices),
                          memory(*input.model_normals), input.model_vertices->size, at);
@@ -275,7 +274,7 @@ void OpenclBackend::do_integrate(Volume& volume, const DeviceImage<float>& depth
   DeviceKernel& kernel = programs_.get("integrate");
   const Int3 n = volume.resolution;
   const auto rows = static_cast<std::size_t>(n.y) * static_cast<std::size_t>(n.z);
-  queue_.launch(kernel, static_cast<std::size_t>(kernel.packets(n.x)) * rows,
+  queue_.launch(kernel, kernel.packets(n.x) * rows,
                 memory(*volume.storage), n, voxel_size(n, volume.size_m), memory(depth_m),
                 depth_m.size, parameters);
 }
@@ -350,7 +349,7 @@ void OpenclBackend::do_render_volume(DeviceImage<Rgba8>& image, const Volume& vo
   march(scratch(seen_vertices_, bytes), scratch(seen_normals_, bytes), image.size, volume, view);
   DeviceKernel& kernel = programs_.get("render_volume");
   const int count = pixel_count(image.size);
-  queue_.launch(kernel, static_cast<std::size_t>(kernel.packets(count)), memory(image),
+  queue_.launch(kernel, kernel.packets(count), memory(image),
                 seen_vertices_, seen_normals_, count, shading);
 }
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "backends/opencl/kernels/kernel_sources.h"
+#include "backends/opencl/kernels/kernel_texts.h"
 #include "backends/opencl/queue.h"
 #include "core/error.h"
 #include "io/files.h"
@@ -26,8 +26,8 @@ constexpr std::string_view shared[] = {"types", "lanes",       "maths",         
 
 std::string source_of(const std::string& name) {
   std::string text;
-  for (const std::string_view part : shared) text += kernel_source(part);
-  return text.append(kernel_source(name));
+  for (const std::string_view part : shared) text += kernel_texts::find(part);
+  return text.append(kernel_texts::find(name));
 }
 
 std::string options_of(const OpenclDevice& device, const KernelLayout& layout,

@@ -18,7 +18,9 @@ struct DeviceKernel {
   KernelLayout layout;
 
   /// Packets of lanes that cover so many elements.
-  int packets(int count) const { return (count + layout.lanes - 1) / layout.lanes; }
+  std::size_t packets(int count) const {
+    return static_cast<std::size_t>((count + layout.lanes - 1) / layout.lanes);
+  }
   /// Groups that cover so many packets.
   std::size_t groups(std::size_t packets) const {
     const auto each =

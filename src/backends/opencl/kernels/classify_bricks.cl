@@ -7,9 +7,6 @@
 #define FREE 1    // every voxel is measured as free space, a truncated distance of 1
 #define VARIED 2  // every voxel has to be looked at
 
-inline float least_of(float8 v) { return FOLD_4(fmin, fmin(v.lo, v.hi)); }
-inline float greatest_of(float8 v) { return FOLD_4(fmax, fmax(v.lo, v.hi)); }
-
 inline int change_of(float8 x, float8 y, float8 z, global const float2* ranges, Size tiles,
                      Size size, IntegrateParameters p, float tolerance_m) {
   const float near_m = least_of(z), far_m = greatest_of(z);
@@ -51,11 +48,10 @@ KERNEL classify_bricks(global int* varied, global int* counters, global const in
                        global const float2* ranges, Size tiles, Size size, IntegrateParameters p,
                        float tolerance_m) {
   FOR_PACKETS(brick, bricks.x * bricks.y * bricks.z) {
-    const int bx = brick % bricks.x, by = brick / bricks.x % bricks.y;
-    const int bz = brick / bricks.x / bricks.y;
+    const Int3 at = brick_position(brick, bricks);
     const Rigid3f t = p.T_camera_volume;
-    const float x0 = (bx * EDGE + 0.5f) * voxel_m.x, y0 = (by * EDGE + 0.5f) * voxel_m.y;
-    const float z0 = (bz * EDGE + 0.5f) * voxel_m.z;
+    const float x0 = (at.x * EDGE + 0.5f) * voxel_m.x, y0 = (at.y * EDGE + 0.5f) * voxel_m.y;
+    const float z0 = (at.z * EDGE + 0.5f) * voxel_m.z;
     const float last = EDGE - 1;
     const float8 dx = (float8)(0, 1, 0, 1, 0, 1, 0, 1) * (last * voxel_m.x);
     const float8 dy = (float8)(0, 0, 1, 1, 0, 0, 1, 1) * (last * voxel_m.y);

@@ -13,11 +13,10 @@ inline int take_plane(int brick, Int3 bricks, global int* counters, global int* 
   const int plane = atomic_inc(&counters[0]);
   planes[brick] = plane;
   owners[plane] = brick;
-  const int bx = brick % bricks.x, by = brick / bricks.x % bricks.y;
-  const int bz = brick / bricks.x / bricks.y;
-  for (int z = max(0, bz - 1); z <= bz; ++z) {
-    for (int y = max(0, by - 1); y <= by; ++y) {
-      for (int x = max(0, bx - 1); x <= bx; ++x) occupied[(z * bricks.y + y) * bricks.x + x] = 1;
+  const Int3 at = brick_position(brick, bricks);
+  for (int z = max(0, at.z - 1); z <= at.z; ++z) {
+    for (int y = max(0, at.y - 1); y <= at.y; ++y) {
+      for (int x = max(0, at.x - 1); x <= at.x; ++x) occupied[(z * bricks.y + y) * bricks.x + x] = 1;
     }
   }
   return plane;
@@ -31,8 +30,8 @@ KERNEL integrate_bricks(global const int* varied, global int* counters,
   local short new_tsdf[BRICK_VOXELS], new_weights[BRICK_VOXELS];
   local int differs, changed, least_weight, greatest_weight, plane_of_tsdf, plane_of_weights;
   const int brick = varied[get_group_id(0)];
-  const int first_x = brick % bricks.x * EDGE, first_y = brick / bricks.x % bricks.y * EDGE;
-  const int first_z = brick / bricks.x / bricks.y * EDGE;
+  const Int3 at = brick_position(brick, bricks);
+  const int first_x = at.x * EDGE, first_y = at.y * EDGE, first_z = at.z * EDGE;
   if (get_local_id(0) == 0) {  // alone reads and writes the tables
     plane_of_tsdf = distance_planes[brick];
     plane_of_weights = weight_planes[brick];

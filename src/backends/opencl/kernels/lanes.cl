@@ -17,7 +17,6 @@ typedef int Ints;
 #define TO_FLOATS(v) convert_float(v)
 #define TO_INTS(v) convert_int(v)
 #define TO_SHORTS(v) convert_short(v)
-#define AS_FLOATS(v) as_float(v)
 #define AS_INTS(v) as_int(v)
 #define IOTA 0
 #define FIRST(v) (v)
@@ -35,7 +34,6 @@ typedef int8 Ints;
 #define TO_FLOATS(v) convert_float8(v)
 #define TO_INTS(v) convert_int8(v)
 #define TO_SHORTS(v) convert_short8(v)
-#define AS_FLOATS(v) as_float8(v)
 #define AS_INTS(v) as_int8(v)
 #define IOTA (int8)(0, 1, 2, 3, 4, 5, 6, 7)
 #define LOAD(p) vload8(0, p)
@@ -53,7 +51,6 @@ typedef int16 Ints;
 #define TO_FLOATS(v) convert_float16(v)
 #define TO_INTS(v) convert_int16(v)
 #define TO_SHORTS(v) convert_short16(v)
-#define AS_FLOATS(v) as_float16(v)
 #define AS_INTS(v) as_int16(v)
 #define IOTA (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
 #define LOAD(p) vload16(0, p)

@@ -29,6 +29,10 @@ inline Vec3 rotate3(Rigid3f t, Vec3 v) {
 }
 inline Vec3 apply(Rigid3f t, Vec3 v) { return add(rotate3(t, v), splat(t.translation)); }
 
+// Of the eight corners of a box.
+inline float least_of(float8 v) { return FOLD_4(fmin, fmin(v.lo, v.hi)); }
+inline float greatest_of(float8 v) { return FOLD_4(fmax, fmax(v.lo, v.hi)); }
+
 // The direction of depth 1 through pixels (x, y).
 inline Vec3 pixel_ray(Intrinsics k, Ints x, Ints y) {
   return vec3((TO_FLOATS(x) - k.cx) / k.fx, (TO_FLOATS(y) - k.cy) / k.fy, (Floats)(1.0f));

@@ -12,9 +12,6 @@
 #define LOWER(p, v) atomic_min(p, v)
 #endif
 
-inline float least_of(float8 v) { return FOLD_4(fmin, fmin(v.lo, v.hi)); }
-inline float greatest_of(float8 v) { return FOLD_4(fmax, fmax(v.lo, v.hi)); }
-
 // Samples that read a brick lie up to a voxel beside it, at the volume's border anywhere beyond its
 // last voxels' centres, and a little more for rounding.
 #define MARGIN 1.01f
@@ -63,12 +60,12 @@ KERNEL start_depths(global int* tiles, Size count, int tile, global const int* o
   const Rigid3f t = view.T_volume_camera;
   const int planes = counters[0];
   for (int plane = 1 + get_global_id(0); plane < planes; plane += get_global_size(0)) {
-    const int brick = owners[plane];
-    const float8 vx = corners_along(brick % bricks.x, n.x, voxel_m.x,
+    const Int3 at = brick_position(owners[plane], bricks);
+    const float8 vx = corners_along(at.x, n.x, voxel_m.x,
                                     (float8)(0, 1, 0, 1, 0, 1, 0, 1)) - t.translation.x;
-    const float8 vy = corners_along(brick / bricks.x % bricks.y, n.y, voxel_m.y,
+    const float8 vy = corners_along(at.y, n.y, voxel_m.y,
                                     (float8)(0, 0, 1, 1, 0, 0, 1, 1)) - t.translation.y;
-    const float8 vz = corners_along(brick / bricks.x / bricks.y, n.z, voxel_m.z,
+    const float8 vz = corners_along(at.z, n.z, voxel_m.z,
                                     (float8)(0, 0, 0, 0, 1, 1, 1, 1)) - t.translation.z;
     mark(own_tiles, count, tile, t.row0.x * vx + t.row1.x * vy + t.row2.x * vz,
          t.row0.y * vx + t.row1.y * vy + t.row2.y * vz,

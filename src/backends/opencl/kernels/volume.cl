@@ -6,6 +6,15 @@
 #define EDGE 8            // voxels along a brick
 #define BRICK_VOXELS 512  // x fastest
 
+// Where the brick of this index lies, in bricks.
+inline Int3 brick_position(int brick, Int3 bricks) {
+  Int3 at;
+  at.x = brick % bricks.x;
+  at.y = brick / bricks.x % bricks.y;
+  at.z = brick / bricks.x / bricks.y;
+  return at;
+}
+
 // BRICKS: planes of 512 distances, a table with the plane of each brick (0: all +1), and a byte a
 // brick that is not 0 where a sample whose lower corner lies in it can be other than +1.
 // Otherwise: a flat array of pairs of distance and weight.

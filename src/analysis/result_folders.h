@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace slambench {
+
+/// Whether `slambench run` left its results there: whether the folder has a record.json.
+bool is_result_folder(const std::filesystem::path& folder);
+
+/// The result folders in a folder, hidden ones left out, in order of their names. Throws InputError
+/// naming a folder that cannot be read, with the system's reason.
+std::vector<std::string> result_folders_in(const std::string& folder);
+
+}  // namespace slambench
