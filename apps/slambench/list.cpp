@@ -71,8 +71,8 @@ Json as_json(const MeterEntry& entry, const FoundMeters& found) {
   for (const auto& meter : found.meters) {
     json["sensors"].push_back({{"name", meter->info().name}, {"sensor", meter->info().sensor}});
   }
-  for (const auto& [name, reason] : found.refused) {
-    json["refused"].push_back({{"name", name}, {"reason", reason}});
+  for (const auto& [info, reason] : found.refused) {
+    json["refused"].push_back({{"name", info.name}, {"reason", reason}});
   }
   return json;
 }
@@ -142,8 +142,8 @@ std::vector<Row> meter_rows(const MeterContext& context) {
     for (const auto& meter : found.meters) {
       rows.push_back({"", "", fmt::format("{}: {}", meter->info().name, meter->info().sensor)});
     }
-    for (const auto& [name, reason] : found.refused) {
-      rows.push_back({"", "", fmt::format("not {}: {}", name, reason)});
+    for (const auto& [info, reason] : found.refused) {
+      rows.push_back({"", "", fmt::format("not {}: {}", info.name, reason)});
     }
   }
   return rows;
@@ -321,7 +321,9 @@ Action add_list(CLI::App& command) {
     if (options->threads > 0 && !options->machine) throw UsageError("--threads: needs --machine");
     if (options->machine) return list_machine(*options);
     if (options->json) {
-      print(everything(options->meters.context()).dump(2) + "\n");
+      // What sensors are called is up to the machine.
+      const Json all = everything(options->meters.context());
+      print(all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     } else if (options->markdown) {
       print(parameter_markdown());
     } else {

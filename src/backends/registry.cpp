@@ -44,8 +44,8 @@ constexpr BackendEntry table[] = {
      [](const BackendOptions&, int) -> std::unique_ptr<Backend> {
        return std::make_unique<SerialBackend>();
      }},
-    {"opencl", "any device with a driver for OpenCL 1.2",
-     [] { return unless(opencl_obstacle()); }, opencl_devices,
+    {"opencl", "any device with a driver for OpenCL 1.2", [] { return unless(opencl_obstacle()); },
+     opencl_devices,
      [](const BackendOptions& options, int device) {
        return make_opencl_backend(device, options.opencl);
      }},

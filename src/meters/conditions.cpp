@@ -8,28 +8,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <sstream>
 
 namespace slambench {
 namespace {
 
-constexpr const char* cpu_folder = "/sys/devices/system/cpu";
-
 // Above these a run counts as disturbed.
 constexpr double most_others_load = 0.1;  ///< processors
 constexpr double most_frequency_drop = 0.05;
 constexpr double most_run_spread = 0.03;
-
-std::vector<std::string> cpu_folders(const SystemFiles& files) {
-  std::vector<std::string> folders;
-  for (const std::string& name : files.names(cpu_folder)) {
-    const bool is_cpu = name.starts_with("cpu") && name.size() > 3 &&
-                        name.find_first_not_of("0123456789", 3) == std::string::npos;
-    if (is_cpu) folders.push_back(fmt::format("{}/{}", cpu_folder, name));
-  }
-  return folders;
-}
 
 double own_seconds() {
   rusage usage{};
@@ -40,24 +29,40 @@ double own_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-std::optional<int> throttle_count(const SystemFiles& files) {
-  std::optional<int> count;
-  for (const std::string& cpu : cpu_folders(files)) {
+/// Of each processor's counts, by file. An event of a package stands in those of all its
+/// processors.
+std::map<std::string, std::uint64_t> throttle_counts(const SystemFiles& files) {
+  std::map<std::string, std::uint64_t> counts;
+  for (const std::string& cpu : processor_folders(files)) {
     for (const char* what : {"core", "package"}) {
       const std::string file = fmt::format("{}/thermal_throttle/{}_throttle_count", cpu, what);
       try {
-        count = count.value_or(0) + static_cast<int>(files.count(file));
+        counts[file] = files.count(file);
       } catch (const MeterError&) {
         // Not every processor tells.
+        counts.erase(file);
       }
     }
   }
-  return count;
+  return counts;
+}
+
+/// The most that one count rose; none when no count was there both times.
+std::optional<int> throttled_between(const std::map<std::string, std::uint64_t>& begin,
+                                     const std::map<std::string, std::uint64_t>& end) {
+  std::optional<std::uint64_t> most;
+  for (const auto& [file, count] : end) {
+    const auto before = begin.find(file);
+    if (before == begin.end()) continue;
+    most = std::max(most.value_or(0), count > before->second ? count - before->second : 0);
+  }
+  if (!most) return std::nullopt;
+  return static_cast<int>(std::min<std::uint64_t>(*most, std::numeric_limits<int>::max()));
 }
 
 std::string governors(const SystemFiles& files) {
   std::set<std::string> names;
-  for (const std::string& cpu : cpu_folders(files)) {
+  for (const std::string& cpu : processor_folders(files)) {
     const std::string name = files.text_or_empty(cpu + "/cpufreq/scaling_governor");
     if (!name.empty()) names.insert(name);
   }
@@ -100,7 +105,7 @@ ConditionsMeter::Accounts ConditionsMeter::now() const {
   return {
       clock_.now_s(),
       busy_seconds(files_.text_or_empty("/proc/stat"), static_cast<double>(::sysconf(_SC_CLK_TCK))),
-      own_seconds(), throttle_count(files_)};
+      own_seconds(), throttle_counts(files_)};
 }
 
 void ConditionsMeter::end(Conditions* conditions) const {
@@ -111,9 +116,7 @@ void ConditionsMeter::end(Conditions* conditions) const {
     conditions->others_load = std::max(0.0, others_s / seconds);
   }
   conditions->governor = governors(files_);
-  if (end.throttled && begin_.throttled) {
-    conditions->throttled = std::max(0, *end.throttled - *begin_.throttled);
-  }
+  conditions->throttled = throttled_between(begin_.throttled, end.throttled);
 }
 
 std::vector<std::string> noise_in(const Conditions& conditions,
@@ -144,8 +147,7 @@ std::string noise_of_runs(double median, double run_spread) {
   if (!(median > 0) || run_spread <= most_run_spread * median) return {};
   return fmt::format(
       "the runs' computation times differ by {:.1f} % (standard deviation): quieten the machine, "
-      "or "
-      "raise --repeat",
+      "or raise --repeat",
       100 * run_spread / median);
 }
 

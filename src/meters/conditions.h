@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,9 +26,9 @@ class ConditionsMeter {
  private:
   struct Accounts {
     double time_s = 0;
-    std::optional<double> busy_s;  ///< of all processors together
-    double own_s = 0;              ///< of this process
-    std::optional<int> throttled;
+    std::optional<double> busy_s;                    ///< of all processors together
+    double own_s = 0;                                ///< of this process
+    std::map<std::string, std::uint64_t> throttled;  ///< by file, of each processor
   };
   Accounts now() const;
 

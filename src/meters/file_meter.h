@@ -19,14 +19,22 @@ class FileMeter final : public Meter {
   const double unit_;
 };
 
-/// Adds the meter when it can be read now, and else the reason.
-inline void add_readable(std::unique_ptr<Meter> meter, FoundMeters* found) {
+/// Adds the meter that `make` makes when it can be made and read now, and else the reason.
+template <class Make>
+void add_readable(const MeterInfo& info, const Make& make, FoundMeters* found) {
   try {
+    std::unique_ptr<Meter> meter = make();
     meter->read();
     found->meters.push_back(std::move(meter));
   } catch (const MeterError& error) {
-    found->refused.emplace_back(meter->info().name, error.what());
+    found->refused.emplace_back(info, error.what());
   }
+}
+
+inline void add_readable(std::unique_ptr<Meter> meter, FoundMeters* found) {
+  const MeterInfo info = meter->info();
+  add_readable(
+      info, [&] { return std::move(meter); }, found);
 }
 
 /// Says why there is nothing to read, when there is nothing.

@@ -32,13 +32,13 @@ MeterInfo info_of(const std::string& device, const char* driver) {
 /// The driver of the vendor's kernel: watts as text, and a switch.
 void find_old(const SystemFiles& files, FoundMeters* found) {
   for (const std::string& device : files.names(driver_folder)) {
-    const std::string name = odroid_rail(device);
-    if (name.empty()) continue;
+    if (odroid_rail(device).empty()) continue;
     const std::string folder = fmt::format("{}/{}", driver_folder, device);
     const std::string enable = files.text_or_empty(folder + "/enable");
     if (enable == "0") {
       const std::string file = files.path(folder + "/enable");
-      found->refused.emplace_back(name, fmt::format("switched off: echo 1 | sudo tee {}", file));
+      found->refused.emplace_back(info_of(device, "vendor's driver"),
+                                  fmt::format("switched off: echo 1 | sudo tee {}", file));
       continue;
     }
     add_readable(std::make_unique<FileMeter>(info_of(device, "vendor's driver"), files,

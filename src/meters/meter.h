@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -55,10 +54,13 @@ struct MeterContext {
   std::string nvml_library;
 };
 
-/// What a kind of meter found. What it found but cannot read is `refused`, with the reason.
+/// A meter that was found and cannot be read, with the reason.
+using RefusedMeter = std::pair<MeterInfo, std::string>;
+
+/// What a kind of meter found.
 struct FoundMeters {
   std::vector<std::unique_ptr<Meter>> meters;
-  std::vector<std::pair<std::string, std::string>> refused;
+  std::vector<RefusedMeter> refused;
   std::string unavailable;  ///< why there is nothing to read; empty: there is
 };
 

@@ -58,7 +58,7 @@ FoundMeters find_meters(const MeterContext& context) {
   // What one kind may not read another may.
   std::erase_if(all.refused, [&](const auto& refused) {
     return std::any_of(all.meters.begin(), all.meters.end(),
-                       [&](const auto& meter) { return meter->info().name == refused.first; });
+                       [&](const auto& meter) { return meter->info().name == refused.first.name; });
   });
   if (!has_energy) {
     all.unavailable = all.refused.empty() ? "no sensor (slambench list tells where was looked)"

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 
 #include "meters/file_meter.h"
 #include "meters/meter.h"
@@ -114,15 +113,20 @@ class NvmlMeter final : public Meter {
   double last_j_ = 0;
 };
 
+MeterInfo info_of(unsigned index) {
+  return {.name = fmt::format("gpu{}", index),
+          .sensor = "NVML",
+          .quantity = Quantity::energy_j,
+          .resolution = 1e-3,
+          .within = "",
+          .in_total = true};
+}
+
 /// The counter of energy where the device has one (Volta and later), else its power.
 std::unique_ptr<Meter> meter_of(const std::shared_ptr<const Nvml>& nvml, unsigned index) {
   const Device device = nvml->device(index);
-  MeterInfo info{.name = fmt::format("gpu{}", index),
-                 .sensor = fmt::format("NVML {}", nvml->name(device)),
-                 .quantity = Quantity::energy_j,
-                 .resolution = 1e-3,
-                 .within = "",
-                 .in_total = true};
+  MeterInfo info = info_of(index);
+  info.sensor = fmt::format("NVML {}", nvml->name(device));
   try {
     nvml->energy_j(device);
   } catch (const MeterError&) {
@@ -139,11 +143,8 @@ FoundMeters find_nvml(const MeterContext& context) {
     const auto nvml = std::make_shared<const Nvml>(context.nvml_library);
     const unsigned count = nvml->device_count();
     for (unsigned i = 0; i < count; ++i) {
-      try {
-        add_readable(meter_of(nvml, i), &found);
-      } catch (const MeterError& error) {
-        found.refused.emplace_back(fmt::format("gpu{}", i), error.what());
-      }
+      add_readable(
+          info_of(i), [&] { return meter_of(nvml, i); }, &found);
     }
     explain_nothing(&found, "NVML knows of no device");
   } catch (const MeterError& error) {

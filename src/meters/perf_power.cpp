@@ -6,10 +6,9 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <optional>
 
 #include "io/text.h"
-#include "meters/meter.h"
+#include "meters/file_meter.h"
 
 namespace slambench {
 namespace {
@@ -74,7 +73,8 @@ std::uint64_t event_config(const SystemFiles& files, const std::string& file) {
     const auto result = std::from_chars(text.data() + head.size(), end, config, 16);
     if (result.ec == std::errc{} && result.ptr == end) return config;
   }
-  throw MeterError(fmt::format("{}: found {}, expected event=0x...", files.path(file), quote(text)));
+  throw MeterError(
+      fmt::format("{}: found {}, expected event=0x...", files.path(file), quote(text)));
 }
 
 /// The package that a processor lies in; the index of the processor's line where that is not told.
@@ -97,9 +97,7 @@ std::unique_ptr<Meter> open_event(const MeterContext& context, MeterInfo info,
   info.resolution = files.number(event + ".scale");
   const auto type = static_cast<std::uint32_t>(files.count(fmt::format("{}/type", folder)));
   auto count = context.perf->open({type, event_config(files, event), cpu});
-  auto meter = std::make_unique<PerfPowerMeter>(std::move(info), std::move(count));
-  meter->read();
-  return meter;
+  return std::make_unique<PerfPowerMeter>(std::move(info), std::move(count));
 }
 
 }  // namespace
@@ -130,22 +128,15 @@ FoundMeters find_perf_power(const MeterContext& context) {
           info.name = fmt::format("{}/{}", package, domain.name);
           info.within = package;
         }
-        try {
-          found.meters.push_back(open_event(context, info, event, cpu));
-        } catch (const MeterError& error) {
-          found.refused.emplace_back(info.name, error.what());
-        }
+        add_readable(
+            info, [&] { return open_event(context, info, event, cpu); }, &found);
       }
     }
   } catch (const MeterError& error) {
     found.unavailable = error.what();
     return found;
   }
-  if (found.meters.empty()) {
-    found.unavailable = found.refused.empty()
-                            ? fmt::format("{}/events: no event of energy", files.path(folder))
-                            : found.refused.front().second;
-  }
+  explain_nothing(&found, fmt::format("{}/events: no event of energy", files.path(folder)));
   return found;
 }
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <set>
 
-#include "meters/meter.h"
+#include "meters/file_meter.h"
 
 namespace slambench {
 namespace {
@@ -92,21 +92,13 @@ FoundMeters find_powercap(const MeterContext& context) {
         // The platform's counter holds packages and more, but is not to be trusted everywhere.
         info.in_total = info.name != "psys";
       }
-      try {
-        auto meter =
-            std::make_unique<PowercapMeter>(info, files, fmt::format("{}/{}", folder, zone));
-        meter->read();
-        found.meters.push_back(std::move(meter));
-      } catch (const MeterError& error) {
-        found.refused.emplace_back(info.name, error.what());
-      }
+      const auto make = [&] {
+        return std::make_unique<PowercapMeter>(info, files, fmt::format("{}/{}", folder, zone));
+      };
+      add_readable(info, make, &found);
     }
   }
-  if (found.meters.empty()) {
-    found.unavailable = found.refused.empty()
-                            ? fmt::format("{}: no zone that counts energy", files.path(folder))
-                            : found.refused.front().second;
-  }
+  explain_nothing(&found, fmt::format("{}: no zone that counts energy", files.path(folder)));
   return found;
 }
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "meters/file_meter.h"
 #include "meters/hwmon.h"
@@ -13,7 +12,6 @@
 namespace slambench {
 namespace {
 
-constexpr const char* cpu_folder = "/sys/devices/system/cpu";
 constexpr const char* thermal_folder = "/sys/class/thermal";
 /// Reading a frequency may wake the processor up: of many, so many are asked.
 constexpr std::size_t most_processors = 16;
@@ -55,9 +53,9 @@ MeterInfo temperature_info(std::string name, std::string sensor) {
 FoundMeters find_frequency(const MeterContext& context) {
   const SystemFiles& files = context.files;
   std::vector<std::string> all;
-  for (const std::string& cpu : files.names(cpu_folder)) {
-    std::string file = fmt::format("{}/{}/cpufreq/scaling_cur_freq", cpu_folder, cpu);
-    if (cpu.starts_with("cpu") && files.exists(file)) all.push_back(std::move(file));
+  for (const std::string& cpu : processor_folders(files)) {
+    std::string file = cpu + "/cpufreq/scaling_cur_freq";
+    if (files.exists(file)) all.push_back(std::move(file));
   }
   FoundMeters found;
   if (!all.empty()) {
@@ -74,7 +72,7 @@ FoundMeters find_frequency(const MeterContext& context) {
                      files, some),
                  &found);
   }
-  explain_nothing(&found, fmt::format("{}: no cpufreq", files.path(cpu_folder)));
+  explain_nothing(&found, fmt::format("{}: no cpufreq", files.path(processors_folder)));
   return found;
 }
 

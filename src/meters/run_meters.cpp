@@ -5,13 +5,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace slambench {
 namespace {
 
 /// How often a baseline asks whether it is to go on.
 constexpr double ask_interval_s = 0.05;
+/// Between readings: a thread cannot wait for ever.
+constexpr double longest_interval_s = 1000;
 
 bool is_energy(Quantity quantity) {
   return quantity == Quantity::energy_j || quantity == Quantity::power_w;
@@ -95,13 +96,12 @@ RunMeters::RunMeters(const MeterParameters& parameters, const MeterContext& cont
     return;
   }
   FoundMeters found = find_meters(context);
-  refused_.insert(found.refused.begin(), found.refused.end());
+  refused_ = std::move(found.refused);
   no_energy_ = found.unavailable;
   if (found.meters.empty()) return;
-  sampler_ = std::make_unique<Sampler>(std::move(found.meters), clock, 1 / parameters.meter_rate);
+  sampler_ = std::make_unique<Sampler>(std::move(found.meters), clock,
+                                       std::min(longest_interval_s, 1 / parameters.meter_rate));
 }
-
-RunMeters::~RunMeters() = default;
 
 void RunMeters::measure_idle(double seconds, const std::function<bool()>& go_on) {
   if (!sampler_ || seconds <= 0) return;
@@ -152,21 +152,24 @@ Measurements RunMeters::end(int frames) {
   } else {
     m.absent["counters"] = no_counters_;
   }
-  add_energy(frames, &m);
-  add_conditions(&m);
+  std::vector<Channel> channels;
+  if (sampler_) channels = sampler_->channels();
+  add_energy(channels, frames, &m);
+  add_conditions(std::move(channels), &m);
   return m;
 }
 
-void RunMeters::add_energy(int frames, Measurements* to) const {
-  for (const auto& [rail, reason] : refused_) {
-    to->absent[fmt::format("energy.rails.{}", rail)] = reason;
+void RunMeters::add_energy(const std::vector<Channel>& channels, int frames,
+                           Measurements* to) const {
+  std::string lacking;  // of the total
+  for (const auto& [info, reason] : refused_) {
+    to->absent[fmt::format("energy.rails.{}", info.name)] = reason;
+    if (info.in_total) lacking = info.name;
   }
   EnergyMeasurement energy;
   energy.frames = frames;
   energy.idle_seconds = idle_seconds_;
-  std::string lacking;  // of the total
   bool any_in_total = false;
-  const std::vector<Channel> channels = sampler_ ? sampler_->channels() : std::vector<Channel>{};
   if (sampler_) energy.seconds = sampler_->seconds();
   std::string failure = no_energy_;
   for (const Channel& channel : channels) {
@@ -208,7 +211,7 @@ void RunMeters::add_energy(int frames, Measurements* to) const {
   to->energy = std::move(energy);
 }
 
-void RunMeters::add_conditions(Measurements* to) const {
+void RunMeters::add_conditions(std::vector<Channel> channels, Measurements* to) const {
   std::vector<MeterSample> frequency_hz;
   if (sampler_) {
     Sampling sampling;
@@ -216,10 +219,9 @@ void RunMeters::add_conditions(Measurements* to) const {
     sampling.samples = sampler_->samples();
     sampling.cpu_s = cpu_s_;
     sampling.share_of_run = sampler_->seconds() > 0 ? cpu_s_ / sampler_->seconds() : 0;
-    for (const Channel& channel : sampler_->channels()) {
+    for (Channel& channel : channels) {
       if (!channel.failure.empty() || channel.samples.empty()) continue;
       const MeterInfo& info = channel.info;
-      sampling.series.push_back({info.name, unit_of(info.quantity), channel.samples});
       if (info.quantity == Quantity::frequency_hz) {
         frequency_hz = channel.samples;
         to->conditions.cpu_frequency_hz = statistics_of(channel.samples);
@@ -227,6 +229,7 @@ void RunMeters::add_conditions(Measurements* to) const {
       if (info.quantity == Quantity::temperature_c) {
         to->conditions.temperature_c[info.name] = statistics_of(channel.samples);
       }
+      sampling.series.push_back({info.name, unit_of(info.quantity), std::move(channel.samples)});
     }
     to->sampling = std::move(sampling);
   }

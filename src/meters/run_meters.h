@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/parameter.h"
 #include "meters/conditions.h"
@@ -33,7 +34,6 @@ struct MeterParameters {
 class RunMeters {
  public:
   RunMeters(const MeterParameters& parameters, const MeterContext& context, const Clock& clock);
-  ~RunMeters();
 
   /// Measures the idle machine for that long; `go_on` is asked now and then and can end it.
   void measure_idle(double seconds, const std::function<bool()>& go_on);
@@ -46,15 +46,15 @@ class RunMeters {
   Observer* stages() { return counters_.get(); }
 
  private:
-  void add_energy(int frames, Measurements* to) const;
-  void add_conditions(Measurements* to) const;
+  void add_energy(const std::vector<Channel>& channels, int frames, Measurements* to) const;
+  void add_conditions(std::vector<Channel> channels, Measurements* to) const;
 
   const Clock& clock_;
   std::unique_ptr<StageCounters> counters_;
   std::string no_counters_;
-  std::map<std::string, std::string> refused_;  ///< rails that were found and cannot be read
-  std::string no_energy_;                       ///< why there is no rail at all
-  std::unique_ptr<Sampler> sampler_;            ///< null when there is nothing to sample
+  std::vector<RefusedMeter> refused_;  ///< of energy
+  std::string no_energy_;              ///< why there is no rail at all
+  std::unique_ptr<Sampler> sampler_;   ///< null when there is nothing to sample
   std::optional<SamplingThread> thread_;
   double cpu_s_ = 0;
   std::map<std::string, double> idle_w_;

@@ -2,7 +2,10 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #include "meters/sampler.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <exception>
 
 namespace slambench {
 namespace {
@@ -38,7 +41,7 @@ class Sampler::Reader {
     if (!channel_.failure.empty()) return;
     try {
       add(time_s, meter_->read());
-    } catch (const MeterError& error) {
+    } catch (const std::exception& error) {
       channel_.failure = error.what();
     }
   }
@@ -53,6 +56,12 @@ class Sampler::Reader {
  private:
   void add(double time_s, double value) {
     const bool first = channel_.readings == 0;
+    if (!first && meter_->info().quantity == Quantity::energy_j && value < last_.value) {
+      throw MeterError(
+          fmt::format("{}: energy fell from {} to {} J, expected a counter that does "
+                      "not: it may have begun anew",
+                      meter_->info().sensor, last_.value, value));
+    }
     const bool changed = !first && value != last_.value;
     if (changed) ++channel_.updates;
     switch (meter_->info().quantity) {

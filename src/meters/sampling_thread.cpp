@@ -14,8 +14,14 @@ SamplingThread::SamplingThread(Sampler& sampler) : sampler_(sampler) {
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  thread_ = std::thread([this] { run(); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  const auto restore = [&] { pthread_sigmask(SIG_SETMASK, &before, nullptr); };
+  try {
+    thread_ = std::thread([this] { run(); });
+  } catch (...) {
+    restore();
+    throw;
+  }
+  restore();
 }
 
 SamplingThread::~SamplingThread() { stop(); }

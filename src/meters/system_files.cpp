@@ -118,4 +118,14 @@ double SystemFiles::number(std::string_view file) const {
   return value;
 }
 
+std::vector<std::string> processor_folders(const SystemFiles& files) {
+  std::vector<std::string> folders;
+  for (const std::string& name : files.names(processors_folder)) {
+    const bool is_processor = name.starts_with("cpu") && name.size() > 3 &&
+                              name.find_first_not_of("0123456789", 3) == std::string::npos;
+    if (is_processor) folders.push_back(fmt::format("{}/{}", processors_folder, name));
+  }
+  return folders;
+}
+
 }  // namespace slambench

@@ -43,4 +43,10 @@ class SystemFiles {
   std::string root_;
 };
 
+/// Where Linux tells of processors.
+constexpr const char* processors_folder = "/sys/devices/system/cpu";
+
+/// The folder of each processor in it.
+std::vector<std::string> processor_folders(const SystemFiles& files);
+
 }  // namespace slambench

@@ -25,10 +25,15 @@ bool same_trajectory(const Record& a, const Record& b) {
                     });
 }
 
+struct AllRuns {
+  std::vector<Record> runs;  ///< that count, and one that was interrupted
+  int warmups = 0;           ///< complete ones
+};
+
 /// The runs that were asked for, up to one that was interrupted.
-std::vector<Record> all_runs(const RunParameters& parameters,
-                             const std::function<Record(const RunNumber&)>& one_run) {
-  std::vector<Record> runs;
+AllRuns all_runs(const RunParameters& parameters,
+                 const std::function<Record(const RunNumber&)>& one_run) {
+  AllRuns all;
   const int total = parameters.warmup + parameters.repeat;
   for (int i = 0; i < total; ++i) {
     const bool warmup = i < parameters.warmup;
@@ -39,10 +44,14 @@ std::vector<Record> all_runs(const RunParameters& parameters,
     if (!complete && total > 1) {
       record.incomplete_reason += fmt::format(" of {}", to_text(number));
     }
-    if (!warmup || !complete) runs.push_back(std::move(record));
+    if (warmup && complete) {
+      ++all.warmups;
+    } else {
+      all.runs.push_back(std::move(record));
+    }
     if (!complete) break;
   }
-  return runs;
+  return all;
 }
 
 /// What the record of one run says of the others.
@@ -67,7 +76,7 @@ std::string to_text(const RunNumber& run) {
 
 Record repeat_runs(const RunParameters& parameters,
                    const std::function<Record(const RunNumber&)>& one_run) {
-  std::vector<Record> runs = all_runs(parameters, one_run);
+  auto [runs, warmups] = all_runs(parameters, one_run);
   std::string interrupted;
   if (!runs.back().complete) {
     interrupted = runs.back().incomplete_reason;
@@ -81,7 +90,7 @@ Record repeat_runs(const RunParameters& parameters,
   record.complete = interrupted.empty();
   record.incomplete_reason = interrupted;
   record.repetition = repetition_of(figures);
-  record.repetition.warmup_runs = parameters.warmup;
+  record.repetition.warmup_runs = warmups;
   record.repetition.shown_run = static_cast<int>(shown) + 1;
   tell_of_others(runs, shown, &record);
   const auto computation = record.repetition.figures.find(order);

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "cli/small_recording.h"
-#include "support/fake_system.h"
+#include "support/fake_machine.h"
 #include "support/program.h"
 
 namespace slambench {
@@ -38,7 +38,7 @@ class MetersTest : public ::testing::Test {
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
   }
 
-  testing::FakeSystem system_;
+  testing::FakeMachine system_;
   testing::Program program_{SLAMBENCH_PROGRAM};
 };
 

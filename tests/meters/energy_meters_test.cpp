@@ -9,13 +9,14 @@
 #include "meters/meter.h"
 #include "meters/sampler.h"
 #include "support/fake_clock.h"
-#include "support/fake_system.h"
+#include "support/fake_machine.h"
 
 namespace slambench {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
+using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Pair;
@@ -65,7 +66,7 @@ class EnergyMeters : public ::testing::Test {
     throw std::runtime_error("no channel " + name);
   }
 
-  testing::FakeSystem system_;
+  testing::FakeMachine system_;
   testing::FakePerfEvents perf_;
   testing::FakeClock clock_;
   double elapsed_s_ = 0;
@@ -183,7 +184,8 @@ TEST_F(EnergyMeters, OneUnreadableZoneLeavesTheOthers) {
   const testing::WithoutRootsPowers user;
   const FoundMeters found = find_meters(context());
   EXPECT_EQ(found.meters.size(), 5u);
-  EXPECT_THAT(found.refused, ElementsAre(Pair("package-0/dram", HasSubstr("Permission denied"))));
+  EXPECT_THAT(found.refused, ElementsAre(Pair(Field(&MeterInfo::name, "package-0/dram"),
+                                              HasSubstr("Permission denied"))));
 }
 
 TEST_F(EnergyMeters, GarbageIsNoReading) {
@@ -349,7 +351,8 @@ TEST_F(EnergyMeters, ASwitchedOffSensorSaysHowToSwitchItOn) {
   const FoundMeters found = find_meters(context());
   EXPECT_EQ(found.meters.size(), 3u);
   EXPECT_THAT(found.refused,
-              ElementsAre(Pair("A7", AllOf(HasSubstr("echo 1"), HasSubstr("4-0045/enable")))));
+              ElementsAre(Pair(Field(&MeterInfo::name, "A7"),
+                               AllOf(HasSubstr("echo 1"), HasSubstr("4-0045/enable")))));
 }
 
 /// A triangle: power rises from 1 to 3 W and falls again, in 2 s: 4 J; read at 16 Hz.

@@ -9,7 +9,7 @@
 
 #include "fakes.h"
 #include "support/fake_clock.h"
-#include "support/fake_system.h"
+#include "support/fake_machine.h"
 
 namespace slambench {
 namespace {
@@ -40,7 +40,7 @@ class RunMetersTest : public ::testing::Test {
     throw std::runtime_error("no rail " + name);
   }
 
-  testing::FakeSystem system_;
+  testing::FakeMachine system_;
   testing::FakePerfEvents perf_;
   testing::FakeClock clock_;
   MeterParameters parameters_;
@@ -53,8 +53,8 @@ TEST_F(RunMetersTest, GivesThePapersFiguresOfAnOdroid) {
   for (const bool mainline : {false, true}) {
     SCOPED_TRACE(mainline);
     for (const char* folder : {"/sys/class/hwmon", "/sys/bus/i2c"}) system_.remove(folder);
-    const std::vector<std::string> addresses(std::begin(testing::FakeSystem::odroid_addresses),
-                                             std::end(testing::FakeSystem::odroid_addresses));
+    const std::vector<std::string> addresses(std::begin(testing::FakeMachine::odroid_addresses),
+                                             std::end(testing::FakeMachine::odroid_addresses));
     const std::vector<double> watts = {1.2, 0.1, 0.5, 0.3};
     mainline ? system_.odroid_mainline() : system_.odroid_old();
     for (std::size_t i = 0; i < addresses.size(); ++i) {
@@ -86,7 +86,7 @@ TEST_F(RunMetersTest, SubtractsTheIdleBaseline) {
   parameters_.idle = 10;
   make();
   meters_->measure_idle(parameters_.idle, [] { return true; });
-  for (const char* address : testing::FakeSystem::odroid_addresses) {
+  for (const char* address : testing::FakeMachine::odroid_addresses) {
     system_.odroid_old_power(address, "2");
   }
   const Measurements m = run(4, 8);
@@ -143,6 +143,17 @@ TEST_F(RunMetersTest, ARailThatVanishesIsAbsentAndTheTotalToo) {
   EXPECT_TRUE(m.energy->total);
 }
 
+TEST_F(RunMetersTest, WithoutARailThatCannotBeReadThereIsNoTotal) {
+  system_.odroid_old();
+  system_.write("/sys/bus/i2c/drivers/INA231/4-0045/enable", "0");
+  make();
+  const Measurements m = run(2, 4);
+  EXPECT_EQ(m.energy->rails.size(), 3u);
+  EXPECT_THAT(m.absent.at("energy.rails.A7"), HasSubstr("switched off"));
+  EXPECT_FALSE(m.energy->total);
+  EXPECT_EQ(m.absent.at("energy.total"), "A7 was not measured");
+}
+
 TEST_F(RunMetersTest, RailsOfUnknownPurposeAreNotAdded) {
   system_.write("/sys/class/hwmon/hwmon0/name", "acpitz");
   system_.write("/sys/class/hwmon/hwmon0/power1_input", "3000000");
@@ -197,6 +208,32 @@ TEST_F(RunMetersTest, CountsTheProcessorTimeOfOthersAndThrottling) {
   EXPECT_EQ(m.conditions.throttled, 3);
   EXPECT_THAT(m.conditions.noise, ElementsAre(HasSubstr("other processes kept 2."),
                                               HasSubstr("heat slowed the processor 3 times")));
+}
+
+TEST_F(RunMetersTest, CountsThrottlingOfAPackageOnceForAllItsProcessors) {
+  const auto throttled = [&](int count) {
+    for (const int cpu : {0, 1, 2}) {
+      system_.write(fmt::format("/sys/devices/system/cpu/cpu{}/thermal_throttle/"
+                                "package_throttle_count",
+                                cpu),
+                    fmt::format("{}", count));
+    }
+  };
+  throttled(5);
+  make();
+  meters_->begin();
+  clock_.advance(1);
+  throttled(7);
+  EXPECT_EQ(meters_->end(1).conditions.throttled, 2);
+}
+
+TEST_F(RunMetersTest, ARateThatIsHardlyOneIsAnIntervalAllTheSame) {
+  system_.odroid_old();
+  parameters_.meter_rate = 1e-30;
+  make();
+  const Measurements m = run(1, 1);
+  EXPECT_EQ(m.sampling->samples, 2);
+  EXPECT_DOUBLE_EQ(m.sampling->interval_s, 1000);
 }
 
 TEST_F(RunMetersTest, MeasuresResidentMemoryFromTheBeginningOfTheRun) {

@@ -53,6 +53,16 @@ TEST_F(SamplerTest, ACounterTellsPowerBetweenItsUpdates) {
   EXPECT_EQ(channel().updates, 3);
 }
 
+TEST_F(SamplerTest, ACounterThatFallsMeasuredNothing) {
+  value_ = 100;
+  measure(Quantity::energy_j);
+  after(0.1, 101);
+  after(0.1, 3);
+  after(0.1, 4);
+  EXPECT_THAT(channel().failure, ::testing::HasSubstr("energy fell from 101 to 3 J"));
+  EXPECT_DOUBLE_EQ(channel().joules, 1);
+}
+
 TEST_F(SamplerTest, ReadingsCloseTogetherMakeNoPeak) {
   measure(Quantity::energy_j);
   after(0.1, 1);

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "fakes.h"
-#include "support/fake_system.h"
+#include "support/fake_machine.h"
 
 namespace slambench {
 namespace {
@@ -17,7 +17,7 @@ using testing::message_of;
 
 class SystemFilesTest : public ::testing::Test {
  protected:
-  testing::FakeSystem system_;
+  testing::FakeMachine system_;
   SystemFiles files_{system_.root()};
 };
 

@@ -102,6 +102,7 @@ TEST_F(RepeatTest, AnInterruptInTheWarmUpLeavesItsRun) {
   EXPECT_EQ(told_.size(), 1u);
   EXPECT_FALSE(record.complete);
   EXPECT_EQ(record.wall_s, 9);
+  EXPECT_EQ(record.repetition.warmup_runs, 0);
 }
 
 TEST_F(RepeatTest, OneInvalidRunMakesAllInvalid) {

@@ -129,9 +129,7 @@ BrickMap::BrickMap(Queue& queue, Int3 resolution)
   reserve(queue, 1, 0, &weights, &weight_capacity_);
 }
 
-std::size_t BrickMap::count() const {
-  return voxel_count(bricks_);
-}
+std::size_t BrickMap::count() const { return voxel_count(bricks_); }
 
 void BrickMap::reserve(Queue& queue, std::size_t planes, std::size_t used, cl::Buffer* buffer,
                        std::size_t* capacity) const {

@@ -185,16 +185,15 @@ void OpenclBackend::do_render_depth(DeviceImage<Rgba8>& image, const DeviceImage
   begin(Kernel::render_depth);
   DeviceKernel& kernel = programs_.get("render_depth");
   const int count = pixel_count(image.size);
-  queue_.launch(kernel, kernel.packets(count), memory(image),
-                memory(depth_m), count, near_m, far_m);
+  queue_.launch(kernel, kernel.packets(count), memory(image), memory(depth_m), count, near_m,
+                far_m);
 }
 
 void OpenclBackend::do_render_track(DeviceImage<Rgba8>& image, const DeviceImage<TrackData>& rows) {
   begin(Kernel::render_track);
   DeviceKernel& kernel = programs_.get("render_track");
   const int count = pixel_count(image.size);
-  queue_.launch(kernel, kernel.packets(count), memory(image),
-                memory(rows), count);
+  queue_.launch(kernel, kernel.packets(count), memory(image), memory(rows), count);
 }
 
 // ---------------------------------------------------------------- alignment
@@ -206,9 +205,9 @@ void OpenclBackend::launch_track(DeviceImage<TrackData>& rows, const DeviceImage
                                  const TrackParameters& parameters) {
   DeviceKernel& kernel = programs_.get("track");
   const int count = pixel_count(vertices.size);
-  queue_.launch(kernel, kernel.packets(count), memory(rows),
-                memory(vertices), memory(normals), count, memory(model_vertices),
-                memory(model_normals), model_vertices.size, parameters);
+  queue_.launch(kernel, kernel.packets(count), memory(rows), memory(vertices), memory(normals),
+                count, memory(model_vertices), memory(model_normals), model_vertices.size,
+                parameters);
 }
 
 void OpenclBackend::do_track(DeviceImage<TrackData>& rows, const DeviceImage<Float3>& vertices,
@@ -274,9 +273,8 @@ void OpenclBackend::do_integrate(Volume& volume, const DeviceImage<float>& depth
   DeviceKernel& kernel = programs_.get("integrate");
   const Int3 n = volume.resolution;
   const auto rows = static_cast<std::size_t>(n.y) * static_cast<std::size_t>(n.z);
-  queue_.launch(kernel, kernel.packets(n.x) * rows,
-                memory(*volume.storage), n, voxel_size(n, volume.size_m), memory(depth_m),
-                depth_m.size, parameters);
+  queue_.launch(kernel, kernel.packets(n.x) * rows, memory(*volume.storage), n,
+                voxel_size(n, volume.size_m), memory(depth_m), depth_m.size, parameters);
 }
 
 void OpenclBackend::integrate_bricks(BrickMap& map, const Volume& volume,
@@ -349,8 +347,8 @@ void OpenclBackend::do_render_volume(DeviceImage<Rgba8>& image, const Volume& vo
   march(scratch(seen_vertices_, bytes), scratch(seen_normals_, bytes), image.size, volume, view);
   DeviceKernel& kernel = programs_.get("render_volume");
   const int count = pixel_count(image.size);
-  queue_.launch(kernel, kernel.packets(count), memory(image),
-                seen_vertices_, seen_normals_, count, shading);
+  queue_.launch(kernel, kernel.packets(count), memory(image), seen_vertices_, seen_normals_, count,
+                shading);
 }
 
 std::unique_ptr<Backend> make_opencl_backend(int device, const OpenclParameters& parameters) {

@@ -13,7 +13,7 @@ namespace slambench::testing {
 
 /// A root with the files of /sys and /proc that meters look for; tests write them, change them and
 /// take them away.
-class FakeSystem {
+class FakeMachine {
  public:
   const std::string& root() const { return folder_.path(); }
   std::string path(const std::string& file) const { return folder_.path() + file; }
