@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <optional>
@@ -66,19 +65,6 @@ std::optional<std::vector<Entry>> entries_of(Bytes bytes, std::uint64_t key) {
   std::memcpy(entries.data(), bytes.data() + sizeof header, table);
   if (hash_of(entries.data(), table) != header.entries_hash) return std::nullopt;
   return entries;
-}
-
-/// Files that a killed process left behind. Young ones may belong to a running one.
-void remove_leftovers(const std::string& folder) {
-  constexpr auto old = std::chrono::hours(24);
-  std::error_code error;
-  const auto now = fs::file_time_type::clock::now();
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    std::error_code ignored;
-    if (it->path().extension() == ".tmp" && now - it->last_write_time(ignored) > old) {
-      fs::remove(it->path(), ignored);
-    }
-  }
 }
 
 }  // namespace

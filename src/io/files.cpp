@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -146,6 +147,19 @@ void write_file(const std::string& path, std::string_view contents) {
   }
   if (::fsync(file.number()) != 0) cannot_write(path, reason(errno));
   file.move_to(path, place);
+}
+
+void remove_leftovers(const std::string& folder) {
+  constexpr auto old = std::chrono::hours(24);
+  std::error_code error;
+  const auto now = std::filesystem::file_time_type::clock::now();
+  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error)) {
+    std::error_code ignored;
+    if (it->path().extension() == ".tmp" && now - it->last_write_time(ignored) > old) {
+      std::filesystem::remove(it->path(), ignored);
+    }
+  }
 }
 
 std::string read_file(const std::string& path) {

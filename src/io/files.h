@@ -13,6 +13,10 @@ namespace slambench {
 /// Throws Error(failed) naming the file and the system's reason; nothing is left behind then.
 void write_file(const std::string& path, std::string_view contents);
 
+/// Removes what killed processes left behind in the folder while they wrote: write_file()'s
+/// temporary files that are older than a day, as younger ones may belong to a process that runs.
+void remove_leftovers(const std::string& folder);
+
 /// The whole file, or what comes through a pipe that somebody writes to. Throws InputError naming
 /// the file and the system's reason; a folder or a device is no file.
 std::string read_file(const std::string& path);

@@ -153,6 +153,21 @@ TEST_F(Opencl, ProgramsAreKeptAndABrokenOneIsBuiltAnew) {
   EXPECT_GT(fs::file_size(files[0]), std::string("no program").size());
 }
 
+TEST_F(Opencl, NeedsNoHome) {
+  const testing::Environment no_cache("XDG_CACHE_HOME", nullptr), no_home("HOME", nullptr);
+  const auto backend = make_opencl_backend(0, {});
+  auto half = backend->make_image<float>({4, 4});
+  backend->half_sample(half, testing::uploaded(*backend, Image<float>({8, 8}, 2.5f)), 0.1f);
+  EXPECT_EQ(testing::downloaded(*backend, half), Image<float>({4, 4}, 2.5f));
+}
+
+TEST_F(Opencl, RefusesALayoutBeforeAnyKernelIsAskedFor) {
+  OpenclParameters parameters;
+  parameters.layouts.back() = {3, 1, 1};
+  EXPECT_THAT(testing::message_of<UsageError>([&] { make_opencl_backend(0, parameters); }),
+              HasSubstr("expected a group of a power of two"));
+}
+
 /// The program where the loader finds no platform.
 TEST(OpenclWithoutPlatform, IsUnavailableAndSaysWhatWouldHelp) {
   testing::Program program(SLAMBENCH_PROGRAM);

@@ -139,7 +139,8 @@ void BrickMap::reserve(Queue& queue, std::size_t planes, std::size_t used, cl::B
                                        planes, most_planes_addressed));
   }
   const std::size_t wanted = std::max({planes, *capacity + *capacity / 2, first_planes});
-  const std::size_t grown = std::max(planes, std::min(wanted, count() + 1));
+  const std::size_t fit = (queue.device().largest_buffer_bytes - slack) / plane_bytes;
+  const std::size_t grown = std::max(planes, std::min({wanted, count() + 1, fit}));
   const cl::Buffer larger = queue.allocate(grown * plane_bytes + slack);
   if (used > 0) queue.copy(larger, *buffer, used * plane_bytes);
   *buffer = larger;

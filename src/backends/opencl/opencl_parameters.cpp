@@ -78,4 +78,8 @@ KernelLayout OpenclParameters::layout(std::string_view name, bool on_processor) 
   throw std::invalid_argument("layout: no such kernel");
 }
 
+void OpenclParameters::check_layouts(bool on_processor) const {
+  for (const Row& row : rows) layout(row.kernel, on_processor);
+}
+
 }  // namespace slambench

@@ -29,6 +29,8 @@ struct OpenclParameters {
   /// Of kernels/NAME.cl, with the defaults of the kind of device filled in. Throws UsageError for
   /// one that no kernel can have.
   KernelLayout layout(std::string_view name, bool on_processor) const;
+  /// Throws the same for the first of all kernels.
+  void check_layouts(bool on_processor) const;
 };
 
 }  // namespace slambench

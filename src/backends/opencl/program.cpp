@@ -40,11 +40,17 @@ std::string options_of(const OpenclDevice& device, const KernelLayout& layout,
   return options;
 }
 
+/// Where the device's program is kept; "" when the user has no such place.
 std::string cache_file(const OpenclDevice& device, const std::string& options,
                        const std::string& source) {
   const std::string key = fmt::format("{}\n{}\n{}\n{}\n{}", device.platform, device.name,
                                       device.driver, options, source);
-  return fmt::format("{}/opencl/{:016x}.bin", cache_folder(), XXH3_64bits(key.data(), key.size()));
+  try {
+    return fmt::format("{}/opencl/{:016x}.bin", cache_folder(),
+                       XXH3_64bits(key.data(), key.size()));
+  } catch (const UnavailableError&) {
+    return "";
+  }
 }
 
 /// The program from the cache; a null one when it is not there or does not fit any more.
@@ -63,10 +69,13 @@ cl::Program cached(const cl::Context& context, const cl::Device& device, const s
 
 /// A cache that cannot be written costs time, nothing else.
 void keep(const cl::Program& program, const std::string& file) {
+  if (file.empty()) return;
   try {
     const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();
     if (binaries.size() != 1 || binaries[0].empty()) return;
-    fs::create_directories(fs::path(file).parent_path());
+    const std::string folder = fs::path(file).parent_path();
+    fs::create_directories(folder);
+    remove_leftovers(folder);
     write_file(file, {reinterpret_cast<const char*>(binaries[0].data()), binaries[0].size()});
   } catch (const std::exception&) {
   }
