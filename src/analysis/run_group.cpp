@@ -82,8 +82,11 @@ std::string parameter_in(const std::string& place) {
   return place.substr(head.size(), place.size() - head.size() - tail.size());
 }
 
-/// Where the results go changes none of them.
-bool is_compared(const std::string& parameter) { return !parameter.starts_with("output."); }
+/// Where the results go and how often the run is repeated changes none of them.
+bool is_compared(const std::string& parameter) {
+  return !parameter.starts_with("output.") && parameter != "run.repeat" &&
+         parameter != "run.warmup";
+}
 
 std::set<std::string> parameters_of(const StoredRun& base, const StoredRun& other) {
   std::set<std::string> names;

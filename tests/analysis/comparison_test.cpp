@@ -311,6 +311,19 @@ TEST(RequireSameTask, NamesWhatDiffers) {
             HasSubstr("in build and machine: cpu A CPU against another CPU")));
 }
 
+TEST(RequireSameTask, HowOftenARunIsRepeatedIsNoDifference) {
+  Record record = testing::sample_record();
+  const RunGroup base{"base", {stored(record)}};
+  record.parameters.push_back({"run", "repeat", "runs", "3", "command line"});
+  record.parameters.push_back({"run", "warmup", "runs", "1", "command line"});
+  EXPECT_NO_THROW(require_same_task(base, {"other", {stored(record)}}, {}));
+  record.parameters.push_back({"run", "warmup-frames", "", "9", "command line"});
+  EXPECT_THAT(message_of<InputError>([&] {
+                require_same_task(base, {"other", {stored(record)}}, {});
+              }),
+              HasSubstr("warmup-frames (nothing against 9)"));
+}
+
 TEST(RequireSameTask, TakesEqualInputForEqualSequences) {
   Record record = testing::sample_record();
   const RunGroup base{"base", {stored(record)}};

@@ -156,6 +156,15 @@ function frameMarks(run, color, height) {
   ];
 }
 
+/** The times of measured frames decide what is seen: in the first frame a device may compile for seconds. */
+function timeRange() {
+  const most = Math.max(0, ...detailed.map((run) => {
+    const warmup = new Set(frameList(run.record.time.warmup_frames));
+    return run.frames.computation_ms.reduce((top, ms, row) => (warmup.has(run.frames.index[row]) ? top : Math.max(top, ms ?? 0)), 0);
+  }));
+  return most > 0 ? {range: [0, most * 1.08]} : {rangemode: "tozero"};
+}
+
 /** One run: its stages on top of each other along the sequence; several: a line each. */
 function timeChart(colors) {
   const traces = [];
@@ -176,7 +185,7 @@ function timeChart(colors) {
     (row) => run.frames.computation_ms[row] ?? 0)));
   return {data: traces, layout: layout(colors, {height: 380,
     xaxis: axis(colors, "frame of the sequence", {zeroline: false}),
-    yaxis: axis(colors, "computation of a frame, ms", {rangemode: "tozero"})})};
+    yaxis: axis(colors, "computation of a frame, ms", timeRange())})};
 }
 
 /** The range of heights in a path chart: a flat path is not shown as thin as it is. */

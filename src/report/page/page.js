@@ -49,7 +49,7 @@ function kernels() {
 
 function alongTheSequence() {
   if (!detailed.length) return [absent("No run is shown frame by frame: --detail 0.")];
-  return [caption("Time of computation of every processed frame, warm-up included. Crosses are lost frames; ticks on the axis are frames that came too late and were dropped."),
+  return [caption("Time of computation of every processed frame; warm-up frames may lie beyond the axis, double-click to see them. Crosses are lost frames; ticks on the axis are frames that came too late and were dropped."),
           detailNote(), chart("chart-times", timeChart, "Time of computation along the sequence")];
 }
 
