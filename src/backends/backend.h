@@ -112,7 +112,8 @@ class Backend {
   /// The SIMD instruction set that kernels were chosen for on this processor, by Highway's name
   /// ("AVX3", "NEON"); empty where none is chosen at run time.
   virtual std::string instruction_set() const { return {}; }
-  /// True: kernels report their own times through kernel_measured, at finish() at the latest.
+  /// True: kernels and transfers report their own times through kernel_measured and
+  /// transfer_measured, at finish() at the latest, without any waiting of their own.
   virtual bool times_itself() const { return false; }
   virtual void finish() {}
 

@@ -2,9 +2,19 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #pragma once
 
+#include <cstddef>
+#include <string_view>
+
 #include "kernels/kernel.h"
 
 namespace slambench {
+
+/// Which way bytes go between the host and a device that does not compute in the host's memory.
+enum class Transfer { to_device, to_host };
+inline constexpr std::size_t transfer_count = 2;
+constexpr std::string_view name(Transfer direction) {
+  return direction == Transfer::to_device ? "to_device" : "to_host";
+}
 
 /// Is told what runs when. The pipeline and the backends have no clock of their own: whoever
 /// measures implements this.
@@ -18,6 +28,9 @@ class Observer {
   virtual void kernel_end(Kernel kernel) = 0;
   /// From a backend with clocks on its device, once the time of an earlier call is known.
   virtual void kernel_measured(Kernel kernel, double seconds) = 0;
+  /// The same of a transfer. Its time is part of the stage's, and, where a kernel waits for it to
+  /// go on, of that kernel's too: it is never to be added to either.
+  virtual void transfer_measured(Transfer, std::size_t /*bytes*/, double /*seconds*/) {}
 };
 
 /// Reports a stage for as long as it lives. A null observer is told nothing.

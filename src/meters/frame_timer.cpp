@@ -15,6 +15,7 @@ double FrameTimes::total_s() const {
 
 void FrameTimer::stage_begin(Stage stage) {
   if (stages_ != nullptr) stages_->stage_begin(stage);
+  in_stage_ = true;
   stage_begin_s_ = clock_.now_s();
 }
 
@@ -22,6 +23,7 @@ void FrameTimer::stage_end(Stage stage) {
   const auto i = static_cast<std::size_t>(stage);
   times_.stage_s[i] += clock_.now_s() - stage_begin_s_;
   ++times_.stage_calls[i];
+  in_stage_ = false;
   if (stages_ != nullptr) stages_->stage_end(stage);
 }
 
@@ -35,6 +37,14 @@ void FrameTimer::kernel_measured(Kernel kernel, double seconds) {
   const auto i = static_cast<std::size_t>(kernel);
   times_.kernel_s[i] += seconds;
   ++times_.kernel_calls[i];
+}
+
+void FrameTimer::transfer_measured(Transfer direction, std::size_t bytes, double seconds) {
+  if (!in_stage_) return;
+  TransferTimes& times = times_.transfers[static_cast<std::size_t>(direction)];
+  times.seconds += seconds;
+  times.bytes += bytes;
+  ++times.count;
 }
 
 FrameTimes FrameTimer::take() {

@@ -9,12 +9,21 @@
 
 namespace slambench {
 
+/// What went one way between host and device.
+struct TransferTimes {
+  double seconds = 0;
+  std::size_t bytes = 0;
+  int count = 0;
+};
+
 /// Seconds spent in one frame, and how often each stage was entered and each kernel called.
 struct FrameTimes {
   std::array<double, stage_count> stage_s{};
   std::array<int, stage_count> stage_calls{};
   std::array<double, kernel_count> kernel_s{};
   std::array<int, kernel_count> kernel_calls{};
+  /// By direction. They are within the stages' times, and in no sum.
+  std::array<TransferTimes, transfer_count> transfers{};
 
   double stage(Stage s) const { return stage_s[static_cast<std::size_t>(s)]; }
   /// preprocess + track + integrate + raycast, as SLAMBench defines it.
@@ -26,7 +35,9 @@ struct FrameTimes {
 /// Adds up what happens between two calls of take(), by the given clock. Kernels run within
 /// stages; there is one stage and one kernel at a time. A stage always has the wall time between
 /// its begin and its end, also where the backend measures its kernels itself (kernel_measured):
-/// those times count when they arrive, and need not add up to their stage's.
+/// those times count when they arrive, and need not add up to their stage's. Transfers count when
+/// they are told of within a stage: what happens between stages (pictures that are saved) is no
+/// frame's.
 class FrameTimer final : public Observer {
  public:
   /// Tells `stages`, if any, when stages begin and end, outside of what it measures itself.
@@ -38,6 +49,7 @@ class FrameTimer final : public Observer {
   void kernel_begin(Kernel kernel) override;
   void kernel_end(Kernel kernel) override;
   void kernel_measured(Kernel kernel, double seconds) override;
+  void transfer_measured(Transfer direction, std::size_t bytes, double seconds) override;
 
   /// The times since the last call; starts anew.
   FrameTimes take();
@@ -47,6 +59,7 @@ class FrameTimer final : public Observer {
   Observer* const stages_;
   FrameTimes times_;
   double stage_begin_s_ = 0, kernel_begin_s_ = 0;
+  bool in_stage_ = false;
 };
 
 }  // namespace slambench

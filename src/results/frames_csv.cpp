@@ -87,6 +87,11 @@ void add_header(std::size_t levels, Rows* rows) {
     rows->add(fmt::format("kernel_{}_s", kernel.name));
     rows->add(fmt::format("kernel_{}_calls", kernel.name));
   }
+  for (const Transfer direction : {Transfer::to_device, Transfer::to_host}) {
+    for (const char* what : {"s", "bytes", "count"}) {
+      rows->add(fmt::format("transfer_{}_{}", name(direction), what));
+    }
+  }
   rows->end();
 }
 
@@ -131,12 +136,21 @@ void add_times(const FrameTimes& times, Rows* rows) {
     times.kernel_calls[i] > 0 ? rows->add(times.kernel_s[i]) : rows->add_empty(1);
     rows->add(times.kernel_calls[i]);
   }
+  for (const TransferTimes& transfer : times.transfers) {
+    if (transfer.count == 0) {
+      rows->add_empty(2);
+    } else {
+      rows->add(transfer.seconds);
+      rows->add(transfer.bytes);
+    }
+    rows->add(transfer.count);
+  }
 }
 
 std::size_t time_column_count() {
   std::size_t kernels = 0;
   for (const KernelInfo& kernel : kernel_table()) kernels += within_frames(kernel.stage) ? 1 : 0;
-  return 2 + (stage_count - 1) + 2 * kernels;
+  return 2 + (stage_count - 1) + 2 * kernels + 3 * transfer_count;
 }
 
 }  // namespace

@@ -136,6 +136,17 @@ Json start_up_json(const FrameTimes& init) {
   return {{"seconds", init.stage(Stage::init)}, {"kernels", kernels}};
 }
 
+Json transfers_json(const std::vector<TransferFigures>& transfers) {
+  Json json = Json::object();
+  for (const TransferFigures& transfer : transfers) {
+    Json one = json_of(transfer.seconds);
+    one["count_per_frame"] = transfer.count_per_frame;
+    one["bytes_per_frame"] = transfer.bytes_per_frame;
+    json[std::string(name(transfer.direction))] = one;
+  }
+  return json;
+}
+
 void put_measured(const TimeFigures& figures, Json* json, Reasons* absent) {
   (*json)["computation_s"] = json_of_times(figures.computation_s);
   (*json)["total_s"] = json_of_times(figures.total_s);
@@ -160,6 +171,7 @@ void put_measured(const TimeFigures& figures, Json* json, Reasons* absent) {
   }
   (*json)["stages"] = stages;
   (*json)["kernels"] = kernels;
+  if (!figures.transfers.empty()) (*json)["transfers"] = transfers_json(figures.transfers);
 }
 
 Json time_json(const Record& r, Reasons* absent) {

@@ -45,6 +45,10 @@ void add_times(const Record& record, Collector* to) {
     to->add(fmt::format("time.kernels.{}.seconds_per_frame", name(kernel.kernel)), "s",
             kernel.seconds.per_frame, kernel.seconds.when_it_ran.std);
   }
+  for (const TransferFigures& transfer : times.transfers) {
+    to->add(fmt::format("time.transfers.{}.seconds_per_frame", name(transfer.direction)), "s",
+            transfer.seconds.per_frame, transfer.seconds.when_it_ran.std);
+  }
 }
 
 void add_energy(const std::string& place, const EnergyFigures& energy, Collector* to) {

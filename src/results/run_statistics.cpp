@@ -26,6 +26,12 @@ Statistics over(const std::vector<const FrameTimes*>& frames, Figure figure) {
   return summarize(values);
 }
 
+/// Of the seconds of those frames, among so many, in which something ran.
+FrameSeconds frame_seconds(const std::vector<double>& values, std::size_t frames) {
+  return {std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(frames),
+          summarize(values)};
+}
+
 /// Of stage or kernel `i`, whose seconds and calls stand in these arrays.
 template <std::size_t N>
 FrameSeconds frame_seconds(const std::vector<const FrameTimes*>& frames, std::size_t i,
@@ -35,11 +41,7 @@ FrameSeconds frame_seconds(const std::vector<const FrameTimes*>& frames, std::si
   for (const FrameTimes* times : frames) {
     if ((times->*calls)[i] > 0) values.push_back((times->*seconds)[i]);
   }
-  FrameSeconds result;
-  result.when_it_ran = summarize(values);
-  result.per_frame =
-      std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(frames.size());
-  return result;
+  return frame_seconds(values, frames.size());
 }
 
 std::optional<double> share_of(Stage stage, const FrameSeconds& seconds,
@@ -65,10 +67,32 @@ std::optional<KernelFigures> kernel_figures(const KernelInfo& kernel,
   return figures;
 }
 
+std::optional<TransferFigures> transfer_figures(Transfer direction,
+                                                const std::vector<const FrameTimes*>& frames) {
+  TransferFigures figures;
+  figures.direction = direction;
+  std::vector<double> values;
+  for (const FrameTimes* times : frames) {
+    const TransferTimes& one = times->transfers[static_cast<std::size_t>(direction)];
+    if (one.count == 0) continue;
+    values.push_back(one.seconds);
+    figures.count_per_frame += one.count;
+    figures.bytes_per_frame += static_cast<double>(one.bytes);
+  }
+  if (values.empty()) return std::nullopt;
+  const auto count = static_cast<double>(frames.size());
+  figures.seconds = frame_seconds(values, frames.size());
+  figures.count_per_frame /= count;
+  figures.bytes_per_frame /= count;
+  return figures;
+}
+
 bool all_finite(const FrameTimes& times) {
   const auto finite = [](double s) { return std::isfinite(s); };
   return std::all_of(times.stage_s.begin(), times.stage_s.end(), finite) &&
-         std::all_of(times.kernel_s.begin(), times.kernel_s.end(), finite);
+         std::all_of(times.kernel_s.begin(), times.kernel_s.end(), finite) &&
+         std::all_of(times.transfers.begin(), times.transfers.end(),
+                     [&](const TransferTimes& t) { return finite(t.seconds); });
 }
 
 /// What a run that nobody judged would hide.
@@ -120,6 +144,9 @@ TimeFigures time_figures(const Record& record) {
     if (auto k = kernel_figures(kernel, measured, figures.computation_s)) {
       figures.kernels.push_back(*k);
     }
+  }
+  for (const Transfer direction : {Transfer::to_device, Transfer::to_host}) {
+    if (auto t = transfer_figures(direction, measured)) figures.transfers.push_back(*t);
   }
   return figures;
 }

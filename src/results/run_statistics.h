@@ -37,15 +37,23 @@ struct KernelFigures {
   double seconds_per_call = 0;
 };
 
+/// What went one way between host and device. Its time is part of the stages' (and kernels').
+struct TransferFigures {
+  Transfer direction = Transfer::to_device;
+  FrameSeconds seconds;
+  double count_per_frame = 0, bytes_per_frame = 0;  ///< in all measured frames / their number
+};
+
 /// The times of a run. Measured are processed frames without the first, warm-up ones.
 struct TimeFigures {
   std::vector<int> warmup;  ///< indices of the frames left out
   std::size_t measured_frames = 0;
-  Statistics computation_s, total_s;      ///< as the paper defines them (meters/frame_timer.h)
-  std::vector<StageFigures> stages;       ///< in pipeline order, without start-up
-  std::vector<KernelFigures> kernels;     ///< those called in a measured frame, in pipeline order
-  std::optional<double> fps_computation;  ///< 1 / mean computation
-  std::optional<double> fps_wall;         ///< processed frames / duration of the frame loop
+  Statistics computation_s, total_s;       ///< as the paper defines them (meters/frame_timer.h)
+  std::vector<StageFigures> stages;        ///< in pipeline order, without start-up
+  std::vector<KernelFigures> kernels;      ///< those called in a measured frame, in pipeline order
+  std::vector<TransferFigures> transfers;  ///< by direction; none where none was measured
+  std::optional<double> fps_computation;   ///< 1 / mean computation
+  std::optional<double> fps_wall;          ///< processed frames / duration of the frame loop
 };
 
 TimeFigures time_figures(const Record& record);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "results/page.h"
 #include "results/run_statistics.h"
@@ -15,6 +16,8 @@ namespace {
 
 constexpr double ms_per_s = 1e3;
 constexpr double mm_per_m = 1e3;
+constexpr double bytes_per_kib = 1 << 10, bytes_per_gib = 1 << 30;
+
 std::string size_text(Size size) { return fmt::format("{}x{}", size.width, size.height); }
 
 std::string parameter(const Record& record, std::string_view name) {
@@ -94,6 +97,24 @@ void list_stages(const TimeFigures& figures, Page* page) {
   const auto whole = figures.computation_s.mean > 0 ? std::optional(1.0) : std::nullopt;
   page->line(stage_row("computation", in_every_frame(figures.computation_s), share_text(whole)));
   page->line(stage_row("total", in_every_frame(figures.total_s), "-"));
+}
+
+/// Only of a backend that has any.
+void list_transfers(const TimeFigures& figures, Page* page) {
+  if (figures.transfers.empty()) return;
+  page->gap();
+  page->line(fmt::format("{:<18}{:>13}{:>10}{:>14}{:>13}{:>12}", "transfers", "ms a frame",
+                         "median", "a frame", "KiB a frame", "GiB/s"),
+             Look::heading);
+  for (const TransferFigures& t : figures.transfers) {
+    const double rate = t.bytes_per_frame / t.seconds.per_frame / bytes_per_gib;
+    page->line(fmt::format("{:<18}{:>13.3f}{:>10.3f}{:>14.2f}{:>13.3f}{:>12}",
+                           t.direction == Transfer::to_device ? "to the device" : "to the host",
+                           t.seconds.per_frame * ms_per_s, t.seconds.when_it_ran.median * ms_per_s,
+                           t.count_per_frame, t.bytes_per_frame / bytes_per_kib,
+                           std::isfinite(rate) ? fmt::format("{:.2f}", rate) : "-"));
+  }
+  page->line("(part of the stages' times above, and never added to them)");
 }
 
 void tell_speed(const Record& r, const TimeFigures& figures, Page* page) {
@@ -216,6 +237,7 @@ std::string summary_text(const Record& record, std::string_view folder, bool col
   if (figures.measured_frames > 0) {
     list_kernels(figures, &page);
     list_stages(figures, &page);
+    list_transfers(figures, &page);
     list_repetition(record.repetition, &page);
   }
   tell_speed(record, figures, &page);

@@ -231,6 +231,7 @@ Pictures KinectFusion::pictures() {
   backend_.read(pictures.depth, depth_picture_);
   backend_.read(pictures.track, track_picture_);
   backend_.read(pictures.volume, volume_picture_);
+  backend_.finish();  // these transfers are told of now, and are not the next frame's
   return pictures;
 }
 

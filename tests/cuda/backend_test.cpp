@@ -36,7 +36,11 @@ struct Measured : Observer {
   void kernel_begin(Kernel kernel) override { ++from_outside[kernel]; }
   void kernel_end(Kernel) override {}
   void kernel_measured(Kernel kernel, double) override { ++by_itself[kernel]; }
+  void transfer_measured(Transfer direction, std::size_t size, double) override {
+    bytes[direction].push_back(size);
+  }
   std::map<Kernel, int> by_itself, from_outside;
+  std::map<Transfer, std::vector<std::size_t>> bytes;
 };
 
 KinectFusion system_for(Backend& backend, const Recording& recording, MapKind map, bool fused,
@@ -90,6 +94,22 @@ TEST_F(CudaBackend, MeasuresEveryKernelOfThePipeline) {
     EXPECT_EQ(measured.from_outside[Kernel::solve] > 0, !fused);
     EXPECT_EQ(measured.from_outside.size(), 1u);
   }
+}
+
+TEST_F(CudaBackend, MeasuresEachTransferOnceAndTellsWhenItIsFinished) {
+  Measured measured;
+  const Image<float> image({64, 48}, 1.5f);
+  auto unheard = uploaded(backend, image);
+  backend.observe(&measured);
+  auto depth = uploaded(backend, image);
+  EXPECT_EQ(downloaded(backend, depth), image);
+  EXPECT_TRUE(measured.bytes.empty());
+  backend.finish();
+  backend.finish();
+  using Bytes = std::vector<std::size_t>;
+  EXPECT_EQ(measured.bytes[Transfer::to_device], Bytes{image.bytes()});
+  EXPECT_EQ(measured.bytes[Transfer::to_host], Bytes{image.bytes()});
+  EXPECT_EQ(launch->open, 0);
 }
 
 TEST_F(CudaBackend, AllocatesNothingOnceItRuns) {

@@ -113,9 +113,21 @@ class HostLaunch {
     --open;
     pending_.push_back(kernel);
   }
-  template <class F>
-  void report(const F& f) {
-    for (const Kernel kernel : std::exchange(pending_, {})) f(kernel, 1.0);
+  void begin(Transfer, std::size_t bytes) {
+    ++open;
+    copied_ = bytes;
+  }
+  void end(Transfer direction) {
+    --open;
+    pending_copies_.emplace_back(direction, copied_);
+  }
+  void report(Observer* observer) {
+    for (const Kernel kernel : std::exchange(pending_, {})) {
+      if (observer != nullptr) observer->kernel_measured(kernel, 1.0);
+    }
+    for (const auto& [direction, bytes] : std::exchange(pending_copies_, {})) {
+      if (observer != nullptr) observer->transfer_measured(direction, bytes, 1.0);
+    }
   }
 
   template <class F>
@@ -168,6 +180,8 @@ class HostLaunch {
   Order order_;
   int processors_;
   std::vector<Kernel> pending_;
+  std::vector<std::pair<Transfer, std::size_t>> pending_copies_;
+  std::size_t copied_ = 0;
 };
 
 using HostCudaBackend = cuda::DeviceBackend<HostLaunch>;

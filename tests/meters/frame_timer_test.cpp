@@ -89,6 +89,28 @@ TEST_F(FrameTimerTest, KernelsMeasuredElsewhereLeaveTheStageItsWallTime) {
   EXPECT_EQ(calls(times, Kernel::raycast), 2);
 }
 
+TEST_F(FrameTimerTest, TransfersAddUpByDirectionAndAreInNoOtherTime) {
+  {
+    const StageScope stage(&timer_, Stage::track);
+    clock_.advance(0.001);
+    timer_.transfer_measured(Transfer::to_host, 128, 0.25);
+    timer_.transfer_measured(Transfer::to_host, 64, 0.5);
+    timer_.transfer_measured(Transfer::to_device, 1000, 2);
+  }
+  timer_.transfer_measured(Transfer::to_host, 1, 1);  // of nobody's stage
+  const FrameTimes times = timer_.take();
+  const auto& [to_device, to_host] = times.transfers;
+  EXPECT_DOUBLE_EQ(to_host.seconds, 0.75);
+  EXPECT_EQ(to_host.bytes, 192u);
+  EXPECT_EQ(to_host.count, 2);
+  EXPECT_DOUBLE_EQ(to_device.seconds, 2);
+  EXPECT_EQ(to_device.bytes, 1000u);
+  EXPECT_EQ(to_device.count, 1);
+  EXPECT_NEAR(times.computation_s(), 0.001, 1e-9);
+  EXPECT_NEAR(times.total_s(), 0.001, 1e-9);
+  EXPECT_EQ(timer_.take().transfers[0].count, 0);
+}
+
 TEST_F(FrameTimerTest, ComputationAndTotalAreThePapers) {
   double seconds = 1;
   for (const Stage stage : {Stage::acquire, Stage::preprocess, Stage::track, Stage::integrate,

@@ -8,16 +8,20 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include "backends/opencl/opencl.h"
 #include "backends/registry.h"
 #include "core/error.h"
+#include "meters/frame_timer.h"
+#include "slam/kinect_fusion.h"
 #include "support/device_images.h"
 #include "support/environment.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
+#include "verify/recording.h"
 
 namespace slambench {
 namespace {
@@ -45,7 +49,12 @@ class Journal final : public Observer {
     measured.push_back(kernel);
     least_s = std::min(least_s, seconds);
   }
+  void transfer_measured(Transfer direction, std::size_t bytes, double seconds) override {
+    transfers.emplace_back(direction, bytes);
+    least_s = std::min(least_s, seconds);
+  }
   std::vector<Kernel> begun, measured;
+  std::vector<std::pair<Transfer, std::size_t>> transfers;
   double least_s = 1;
 };
 
@@ -66,6 +75,56 @@ TEST_F(Opencl, ReportsEachCallOnceWhenItsTimeIsKnown) {
   EXPECT_THAT(journal.measured, ::testing::ElementsAre(Kernel::init_volume, Kernel::depth2vertex,
                                                        Kernel::integrate, Kernel::raycast));
   EXPECT_GT(journal.least_s, 0);
+}
+
+TEST_F(Opencl, ReportsEachTransferOnceWhenItsTimeIsKnown) {
+  const auto backend = make_opencl_backend(0, {});
+  const Image<float> image({33, 9}, 1.5f);
+  testing::uploaded(*backend, image);  // nobody listens
+  Journal journal;
+  backend->observe(&journal);
+  auto depth = testing::uploaded(*backend, image);
+  auto half = backend->make_image<float>({16, 4});
+  backend->half_sample(half, depth, 0.1f);
+  testing::downloaded(*backend, half);
+  EXPECT_THAT(journal.transfers, ::testing::IsEmpty());
+  backend->finish();
+  backend->finish();
+  EXPECT_THAT(journal.transfers,
+              ::testing::ElementsAre(std::pair(Transfer::to_device, image.bytes()),
+                                     std::pair(Transfer::to_host, 16 * 4 * sizeof(float))));
+  EXPECT_GT(journal.least_s, 0);
+}
+
+/// The depth image goes up; sums of each iteration and the count of bricks come back; pictures that
+/// somebody looks at between two frames are no frame's.
+TEST_F(Opencl, TransfersOfAFrameAreItsOwn) {
+  const auto backend = make_opencl_backend(0, {});
+  FrameTimer timer(steady_clock());
+  backend->observe(&timer);
+  const Recording recording = synthetic_recording({80, 60}, 6);
+  KinectFusionParameters parameters = recording.parameters;
+  parameters.map = "bricks";
+  KinectFusion system(*backend, parameters, {80, 60}, recording.camera, recording.units_per_m,
+                      &timer);
+  timer.take();
+  int aligned = 0;
+  for (const Frame& frame : recording.frames) {
+    const FrameResult result = system.process(frame);
+    system.render();
+    const auto [to_device, to_host] = timer.take().transfers;
+    const int iterations = std::accumulate(result.iterations.begin(), result.iterations.end(), 0);
+    aligned += iterations > 0 ? 1 : 0;
+    EXPECT_EQ(to_device.bytes, frame.depth.bytes());
+    EXPECT_EQ(to_device.count, 1);
+    EXPECT_EQ(to_host.count, iterations + (result.integrated ? 1 : 0));
+    EXPECT_EQ(to_host.bytes,
+              128u * static_cast<unsigned>(iterations) + (result.integrated ? 12u : 0u));
+    EXPECT_GT(to_device.seconds, 0);
+    system.pictures();
+    EXPECT_EQ(timer.take().transfers[1].count, 0);
+  }
+  EXPECT_GT(aligned, 0);
 }
 
 TEST_F(Opencl, BricksGrowWithWhatIsSeen) {

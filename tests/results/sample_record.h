@@ -31,6 +31,15 @@ inline FrameTimes sample_times(double scale) {
   return times;
 }
 
+/// An upload of 1 KiB in each frame, three downloads of 128 bytes in odd ones.
+inline void add_sample_transfers(Record& record) {
+  for (FrameRecord& frame : record.frames) {
+    if (frame.dropped) continue;
+    frame.times.transfers[0] = {frame.index / 64.0, 1024, 1};
+    if (frame.index % 2 == 1) frame.times.transfers[1] = {frame.index / 32.0, 384, 3};
+  }
+}
+
 inline Statistics sample_statistics(double mean) {
   Statistics s;
   s.count = 2;

@@ -84,8 +84,23 @@ TEST(SummaryText, TellsStagesThatDidNotRunInEveryFrame) {
                               "            which a stage ran\n"));
 }
 
+TEST(SummaryText, ListsTransfersOfABackendThatHasAny) {
+  Record record = sample_record();
+  testing::add_sample_transfers(record);
+  EXPECT_THAT(summary_text(record, "", false), HasSubstr(R"(
+total           2625.000       3  2953.125  3839.062  3917.812  3937.500       -
+
+transfers            ms a frame    median       a frame  KiB a frame       GiB/s
+to the device            41.667    46.875          1.00        1.000        0.00
+to the host              41.667    62.500          2.00        0.250        0.00
+(part of the stages' times above, and never added to them)
+
+over 3 runs)"));
+}
+
 TEST(SummaryText, FitsEightyColumnsWithLongNamesAndTimes) {
   Record record = sample_record();
+  testing::add_sample_transfers(record);
   record.provenance.device =
       "A processor with a very long name, of many words, at 2.40 GHz, and "
       "a second one beside it";

@@ -284,6 +284,27 @@ TEST(RecordJson, TakesTextThatIsNotUtf8) {
   EXPECT_EQ(schema_errors(json::parse(record_json(record))), "");
 }
 
+TEST(RecordJson, HasTransfersWhereThereWereAnyAndAddsThemToNothing) {
+  Record record = sample_record();
+  const json without = json::parse(record_json(record));
+  EXPECT_FALSE(without["time"].contains("transfers"));
+  testing::add_sample_transfers(record);
+  json document = json::parse(record_json(record));
+  EXPECT_EQ(schema_errors(document), "");
+  const json& to_device = document["time"]["transfers"]["to_device"];
+  EXPECT_EQ(to_device["seconds_per_frame"], 8 / 64.0 / 3);  // of frames 1, 3 and 4
+  EXPECT_EQ(to_device["seconds"]["median"], 3 / 64.0);
+  EXPECT_EQ(to_device["count_per_frame"], 1);
+  EXPECT_EQ(to_device["bytes_per_frame"], 1024);
+  const json& to_host = document["time"]["transfers"]["to_host"];
+  EXPECT_EQ(to_host["seconds_per_frame"], 4 / 32.0 / 3);
+  EXPECT_EQ(to_host["seconds"]["count"], 2);
+  EXPECT_EQ(to_host["count_per_frame"], 2);
+  EXPECT_EQ(to_host["bytes_per_frame"], 256);
+  document["time"].erase("transfers");
+  EXPECT_EQ(document, without);
+}
+
 TEST(RecordJson, IsNoSuccessWhenTheRunIsInvalid) {
   Record record = sample_record();
   record.valid = false;
@@ -320,13 +341,27 @@ TEST(FramesCsv, IsTheLiteralTextOfASmallRecord) {
             "kernel_solve_calls,kernel_align_s,kernel_align_calls,kernel_integrate_s,"
             "kernel_integrate_calls,kernel_raycast_s,kernel_raycast_calls,kernel_render_depth_s,"
             "kernel_render_depth_calls,kernel_render_track_s,kernel_render_track_calls,"
-            "kernel_render_volume_s,kernel_render_volume_calls\r\n"
+            "kernel_render_volume_s,kernel_render_volume_calls,"
+            "transfer_to_device_s,transfer_to_device_bytes,transfer_to_device_count,"
+            "transfer_to_host_s,transfer_to_host_bytes,transfer_to_host_count\r\n"
             "0,0,0,1,0,1,0,0,0,0,0,0,1,,,,,,,,468.75,984.375,15.625,31.25,62.5,125,250,500,"
-            "15.625,1,31.25,1,,0,,0,,0,,0,62.5,4,,0,,0,,0,125,1,,0,,0,,0,,0\r\n"
+            "15.625,1,31.25,1,,0,,0,,0,,0,62.5,4,,0,,0,,0,125,1,,0,,0,,0,,0,,,0,,,0\r\n"
             "1,0.5,0,0,1,1,1,-0.25,0.5,0,0,0,1,0.0625,0.125,1000,0.5,0.001,4,3,0.46875,0.984375,"
             "0.015625,0.03125,0.0625,0.125,0.25,0.5,"
-            "0.015625,1,0.03125,1,,0,,0,,0,,0,0.0625,4,,0,,0,,0,0.125,1,,0,,0,,0,,0\r\n"
-            "2,1,1,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,\r\n");
+            "0.015625,1,0.03125,1,,0,,0,,0,,0,0.0625,4,,0,,0,,0,0.125,1,,0,,0,,0,,0,,,0,,,0\r\n"
+            "2,1,1,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,\r\n");
+}
+
+TEST(FramesCsv, HasTransfersWhereThereWereAny) {
+  Record record = sample_record();
+  testing::add_sample_transfers(record);
+  const std::string csv = frames_csv(record);
+  EXPECT_EQ(field(csv, 3, "transfer_to_device_s"), "0.046875");
+  EXPECT_EQ(field(csv, 3, "transfer_to_device_bytes"), "1024");
+  EXPECT_EQ(field(csv, 3, "transfer_to_host_s"), "0.09375");
+  EXPECT_EQ(field(csv, 3, "transfer_to_host_count"), "3");
+  EXPECT_EQ(field(csv, 4, "transfer_to_host_bytes"), "");
+  EXPECT_EQ(field(csv, 4, "transfer_to_host_count"), "0");
 }
 
 TEST(FramesCsv, EveryRowHasAllColumns) {

@@ -108,10 +108,12 @@ CudaDevice::~CudaDevice() { destroy(); }
 void CudaDevice::destroy() noexcept {
   cudaSetDevice(index_);
   if (stream_ != nullptr) cudaStreamSynchronize(stream_);
-  for (const Measurement& m : measurements_) {
-    cudaEventDestroy(m.begin);
-    cudaEventDestroy(m.end);
-  }
+  const auto destroy_span = [](const Span& span) {
+    cudaEventDestroy(span.begin);
+    cudaEventDestroy(span.end);
+  };
+  for (const Call& call : calls_) destroy_span(call.span);
+  for (const Copy& copy : copies_) destroy_span(copy.span);
   for (cudaEvent_t event : idle_events_) cudaEventDestroy(event);
   for (const Stage& stage : stages_) {
     if (stage.free != nullptr) cudaEventDestroy(stage.free);
@@ -187,24 +189,43 @@ cudaEvent_t CudaDevice::timed_event() {
   return event;
 }
 
-void CudaDevice::begin(Kernel kernel) {
-  measurements_.push_back({kernel, timed_event(), timed_event()});
-  SLAMBENCH_CUDA(cudaEventRecord(measurements_.back().begin, stream()));
+CudaDevice::Span CudaDevice::begun_span() {
+  const Span span{timed_event(), timed_event()};
+  SLAMBENCH_CUDA(cudaEventRecord(span.begin, stream()));
+  return span;
 }
 
-void CudaDevice::end(Kernel) {
-  SLAMBENCH_CUDA(cudaEventRecord(measurements_.back().end, stream()));
+double CudaDevice::seconds_of(const Span& span) {
+  float ms = 0;
+  SLAMBENCH_CUDA(cudaEventElapsedTime(&ms, span.begin, span.end));
+  idle_events_.push_back(span.begin);
+  idle_events_.push_back(span.end);
+  return static_cast<double>(ms) * 1e-3;
 }
 
-void CudaDevice::report(const std::function<void(Kernel, double)>& f) {
-  for (const Measurement& m : measurements_) {
-    float ms = 0;
-    SLAMBENCH_CUDA(cudaEventElapsedTime(&ms, m.begin, m.end));
-    f(m.kernel, static_cast<double>(ms) * 1e-3);
-    idle_events_.push_back(m.begin);
-    idle_events_.push_back(m.end);
+void CudaDevice::begin(Kernel kernel) { calls_.push_back({kernel, begun_span()}); }
+
+void CudaDevice::end(Kernel) { SLAMBENCH_CUDA(cudaEventRecord(calls_.back().span.end, stream())); }
+
+void CudaDevice::begin(Transfer direction, std::size_t bytes) {
+  copies_.push_back({direction, bytes, begun_span()});
+}
+
+void CudaDevice::end(Transfer) {
+  SLAMBENCH_CUDA(cudaEventRecord(copies_.back().span.end, stream()));
+}
+
+void CudaDevice::report(Observer* observer) {
+  for (const Call& call : calls_) {
+    const double seconds = seconds_of(call.span);
+    if (observer != nullptr) observer->kernel_measured(call.kernel, seconds);
   }
-  measurements_.clear();
+  for (const Copy& copy : copies_) {
+    const double seconds = seconds_of(copy.span);
+    if (observer != nullptr) observer->transfer_measured(copy.direction, copy.bytes, seconds);
+  }
+  calls_.clear();
+  copies_.clear();
 }
 
 }  // namespace slambench::cuda

@@ -4,11 +4,10 @@
 
 #include <cuda_runtime.h>
 
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "kernels/kernel.h"
+#include "kernels/observer.h"
 
 /// What CUDA's runtime does for the host: devices, memory, clocks, errors. Needs no CUDA compiler.
 namespace slambench::cuda {
@@ -43,7 +42,9 @@ class CudaDevice {
   void finish();
   void begin(Kernel kernel);
   void end(Kernel kernel);
-  void report(const std::function<void(Kernel, double seconds)>& f);
+  void begin(Transfer direction, std::size_t bytes);
+  void end(Transfer direction);
+  void report(Observer* observer);
 
  protected:
   /// Of this device, which it makes the calling thread's current one.
@@ -55,21 +56,34 @@ class CudaDevice {
     unsigned char* memory = nullptr;
     cudaEvent_t free = nullptr;  ///< recorded behind its last use
   };
-  struct Measurement {
-    Kernel kernel;
+  struct Span {
     cudaEvent_t begin, end;
+  };
+  struct Call {
+    Kernel kernel;
+    Span span;
+  };
+  struct Copy {
+    Transfer direction;
+    std::size_t bytes;
+    Span span;
   };
 
   /// The stage that was used longer ago, once it is free.
   const Stage& next_stage();
   cudaEvent_t timed_event();
+  /// A span that begins here in the stream.
+  Span begun_span();
+  /// Its duration, once it is done; its events are free again.
+  double seconds_of(const Span& span);
   void destroy() noexcept;
 
   int index_, processors_ = 0;
   cudaStream_t stream_ = nullptr;
   Stage stages_[2];
   int stage_ = 0;
-  std::vector<Measurement> measurements_;
+  std::vector<Call> calls_;
+  std::vector<Copy> copies_;
   std::vector<cudaEvent_t> idle_events_;
 };
 

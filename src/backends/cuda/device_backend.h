@@ -27,7 +27,8 @@
 ///     void download(void* host, const void* device, std::size_t bytes);  // waits
 ///     void finish();                                                     // waits
 ///     void begin(Kernel), end(Kernel);     // around what counts as this kernel's time
-///     void report(f);                      // f(kernel, seconds) for each, once finished
+///     void begin(Transfer, std::size_t bytes), end(Transfer);   // and as this transfer's
+///     void report(Observer*);              // tells of each (null: nobody), once finished
 ///     void pixels(Size, f);                // f(x, y); neighbours along x, or, if F::square,
 ///                                          // along both axes run together
 ///     void elements(int count, f);         // f(i) for i < count at least
@@ -137,9 +138,7 @@ class DeviceBackend final : public Backend {
   bool times_itself() const override { return true; }
   void finish() override {
     launch_->finish();
-    launch_->report([&](Kernel kernel, double seconds) {
-      if (observer() != nullptr) observer()->kernel_measured(kernel, seconds);
-    });
+    launch_->report(observer());
   }
 
   void read_volume(std::vector<Voxel>& destination, const Volume& source) override {
@@ -150,7 +149,7 @@ class DeviceBackend final : public Backend {
     }
     const Buffer<Launch> flat(launch_, bytes);
     launch_->blocks(brick_blocks(source), ReadBricks{bricks(source), flat.template data<Voxel>()});
-    launch_->download(destination.data(), flat.data(), bytes);
+    to_host(destination.data(), flat.data(), bytes);
   }
 
   void write_volume(Volume& destination, const std::vector<Voxel>& source) override {
@@ -160,7 +159,7 @@ class DeviceBackend final : public Backend {
       return upload(*destination.storage, source.data(), bytes);
     }
     const Buffer<Launch> flat(launch_, bytes);
-    launch_->upload(flat.data(), source.data(), bytes);
+    to_device(flat.data(), source.data(), bytes);
     clear(destination);
     launch_->blocks(brick_blocks(destination),
                     WriteBricks{bricks(destination), flat.template data<const Voxel>()});
@@ -179,11 +178,10 @@ class DeviceBackend final : public Backend {
     return std::make_unique<ImageStorage<Launch>>(launch_, bytes);
   }
   void upload(Storage& destination, const void* source, std::size_t bytes) override {
-    launch_->upload(static_cast<ImageStorage<Launch>&>(destination).buffer.data(), source, bytes);
+    to_device(static_cast<ImageStorage<Launch>&>(destination).buffer.data(), source, bytes);
   }
   void download(void* destination, const Storage& source, std::size_t bytes) override {
-    launch_->download(destination, static_cast<const ImageStorage<Launch>&>(source).buffer.data(),
-                      bytes);
+    to_host(destination, static_cast<const ImageStorage<Launch>&>(source).buffer.data(), bytes);
   }
   std::unique_ptr<Storage> allocate_volume(MapKind map, Int3 resolution, Float3 size_m) override {
     if (map == MapKind::grid) return allocate(voxel_count(resolution) * sizeof(Voxel));
@@ -261,7 +259,7 @@ class DeviceBackend final : public Backend {
       launch_->blocks(1, ReduceBlocks{of_blocks, blocks, result});
     });
     Reduction sum;
-    launch_->download(&sum, result, sizeof sum);
+    to_host(&sum, result, sizeof sum);
     return sum;
   }
   bool fuses_align() const override { return true; }
@@ -322,6 +320,19 @@ class DeviceBackend final : public Backend {
     if (heard) launch_->begin(kernel);
     f();
     if (heard) launch_->end(kernel);
+  }
+  /// Transfers with their time reported, through pinned memory or not: the way there is part of it.
+  void to_device(void* device, const void* host, std::size_t bytes) {
+    const bool heard = observer() != nullptr;
+    if (heard) launch_->begin(Transfer::to_device, bytes);
+    launch_->upload(device, host, bytes);
+    if (heard) launch_->end(Transfer::to_device);
+  }
+  void to_host(void* host, const void* device, std::size_t bytes) {
+    const bool heard = observer() != nullptr;
+    if (heard) launch_->begin(Transfer::to_host, bytes);
+    launch_->download(host, device, bytes);
+    if (heard) launch_->end(Transfer::to_host);
   }
 
   static int count(Size size) { return size.width * size.height; }
@@ -448,7 +459,7 @@ AlignResult DeviceBackend<Launch>::do_align(const AlignInput& input, double cond
   timed(Kernel::align, [&] { launch_->grid(align); });
 
   AlignOutcome outcome;
-  launch_->download(&outcome, align.result, sizeof outcome);
+  to_host(&outcome, align.result, sizeof outcome);
   AlignResult result;
   result.T_volume_camera = to_pose(outcome.pose);
   result.last = outcome.last;

@@ -78,16 +78,21 @@ bool OpenclBackend::supports(Kernel kernel, MapKind map) const {
 
 // ---------------------------------------------------------------- memory
 
+Queue& OpenclBackend::queue() {
+  queue_.measure(observer() != nullptr);
+  return queue_;
+}
+
 std::unique_ptr<Storage> OpenclBackend::allocate(std::size_t bytes) {
   return std::make_unique<DeviceBuffer>(queue_.allocate(bytes));
 }
 
 void OpenclBackend::upload(Storage& destination, const void* source, std::size_t bytes) {
-  queue_.write(memory(destination), source, bytes);
+  queue().write(memory(destination), source, bytes);
 }
 
 void OpenclBackend::download(void* destination, const Storage& source, std::size_t bytes) {
-  queue_.read(destination, memory(source), bytes);
+  queue().read(destination, memory(source), bytes);
 }
 
 std::unique_ptr<Storage> OpenclBackend::allocate_volume(MapKind map, Int3 resolution, Float3) {
@@ -102,14 +107,14 @@ std::unique_ptr<Storage> OpenclBackend::allocate_volume(MapKind map, Int3 resolu
 
 void OpenclBackend::read_volume(std::vector<Voxel>& destination, const Volume& source) {
   destination.resize(voxel_count(source.resolution));
-  if (source.map == MapKind::bricks) return brick_map(source).read(queue_, destination.data());
+  if (source.map == MapKind::bricks) return brick_map(source).read(queue(), destination.data());
   download(destination.data(), *source.storage, destination.size() * sizeof(Voxel));
 }
 
 void OpenclBackend::write_volume(Volume& destination, const std::vector<Voxel>& source) {
   check(source.size() == voxel_count(destination.resolution), "write_volume: sizes differ");
   if (destination.map == MapKind::bricks) {
-    return brick_map(destination).write(queue_, source.data());
+    return brick_map(destination).write(queue(), source.data());
   }
   upload(*destination.storage, source.data(), source.size() * sizeof(Voxel));
 }

@@ -65,7 +65,9 @@ class OpenclBackend final : public Backend {
                         const RaycastParameters& view, const ShadeParameters& shading) override;
 
  private:
-  void begin(Kernel kernel) { queue_.begin(kernel, observer() != nullptr); }
+  /// The queue, which measures transfers from now on if anybody wants to know.
+  Queue& queue();
+  void begin(Kernel kernel) { queue().begin(kernel); }
   void integrate_bricks(BrickMap& map, const Volume& volume, const DeviceImage<float>& depth_m,
                         const IntegrateParameters& parameters);
   /// Launches raycast into two buffers of three floats a pixel.

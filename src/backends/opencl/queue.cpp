@@ -10,6 +10,16 @@
 #include "core/error.h"
 
 namespace slambench {
+namespace {
+
+/// From the start of one command to the end of another, or the same; both are done.
+double seconds_between(const cl::Event& first, const cl::Event& last) {
+  const auto begin = first.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+  const auto end = last.getProfilingInfo<CL_PROFILING_COMMAND_END>();
+  return static_cast<double>(end - begin) * 1e-9;
+}
+
+}  // namespace
 
 void throw_opencl_error(const std::string& device, const cl::Error& error) {
   const std::string call = fmt::format("{} (error {})", error.what(), error.err());
@@ -50,15 +60,15 @@ cl::Buffer Queue::allocate(std::size_t bytes) {
 }
 
 void Queue::write(const cl::Buffer& destination, const void* source, std::size_t bytes) {
-  if (bytes == 0) return;
-  with_opencl_errors(device_.name,
-                     [&] { queue_.enqueueWriteBuffer(destination, CL_TRUE, 0, bytes, source); });
+  transfer(Transfer::to_device, bytes, [&](cl::Event* event) {
+    queue_.enqueueWriteBuffer(destination, CL_TRUE, 0, bytes, source, nullptr, event);
+  });
 }
 
 void Queue::read(void* destination, const cl::Buffer& source, std::size_t bytes) {
-  if (bytes == 0) return;
-  with_opencl_errors(device_.name,
-                     [&] { queue_.enqueueReadBuffer(source, CL_TRUE, 0, bytes, destination); });
+  transfer(Transfer::to_host, bytes, [&](cl::Event* event) {
+    queue_.enqueueReadBuffer(source, CL_TRUE, 0, bytes, destination, nullptr, event);
+  });
 }
 
 void Queue::copy(const cl::Buffer& destination, const cl::Buffer& source, std::size_t bytes) {
@@ -67,23 +77,27 @@ void Queue::copy(const cl::Buffer& destination, const cl::Buffer& source, std::s
   });
 }
 
-void Queue::begin(Kernel kernel, bool measure) {
-  measures_ = measure;
-  if (measure) calls_.push_back({kernel, {}, {}});
+void Queue::begin(Kernel kernel) {
+  in_call_ = true;
+  if (measures_) calls_.push_back({kernel, {}, {}});
 }
 
 void Queue::finish(Observer* observer) {
-  measures_ = false;
+  in_call_ = false;
   with_opencl_errors(device_.name, [&] {
     queue_.finish();
+    if (observer == nullptr) return;
     for (const Call& call : calls_) {
-      if (observer == nullptr || call.first() == nullptr) continue;
-      const auto begin = call.first.getProfilingInfo<CL_PROFILING_COMMAND_START>();
-      const auto end = call.last.getProfilingInfo<CL_PROFILING_COMMAND_END>();
-      observer->kernel_measured(call.kernel, static_cast<double>(end - begin) * 1e-9);
+      if (call.first() == nullptr) continue;
+      observer->kernel_measured(call.kernel, seconds_between(call.first, call.last));
+    }
+    for (const Copy& copy : copies_) {
+      observer->transfer_measured(copy.direction, copy.bytes,
+                                  seconds_between(copy.event, copy.event));
     }
   });
   calls_.clear();
+  copies_.clear();
 }
 
 }  // namespace slambench

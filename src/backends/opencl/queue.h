@@ -37,7 +37,7 @@ class Queue {
 
   /// Zeroed. Throws UnavailableError when the device has no such memory.
   cl::Buffer allocate(std::size_t bytes);
-  /// Waits until the source may change again.
+  /// Waits until the source may change again. Writing and reading are told of as transfers.
   void write(const cl::Buffer& destination, const void* source, std::size_t bytes);
   /// Waits for everything before.
   void read(void* destination, const cl::Buffer& source, std::size_t bytes);
@@ -68,10 +68,12 @@ class Queue {
     launch_groups(kernel, kernel.groups(packets), arguments...);
   }
 
-  /// Commands from now on belong to a call of this kernel, if anybody wants to know times.
-  void begin(Kernel kernel, bool measure);
-  /// Waits for all, and tells the observer (null: nobody) the time of each call: from the start
-  /// of its first command to the end of its last.
+  /// Whether anybody wants to know the times of what follows.
+  void measure(bool wanted) { measures_ = wanted; }
+  /// Commands from now on, but for transfers, belong to a call of this kernel.
+  void begin(Kernel kernel);
+  /// Waits for all, and tells the observer (null: nobody) the time of each call, from the start of
+  /// its first command to the end of its last, and of each transfer.
   void finish(Observer* observer);
 
  private:
@@ -79,16 +81,33 @@ class Queue {
     Kernel kernel;
     cl::Event first, last;
   };
+  struct Copy {
+    Transfer direction;
+    std::size_t bytes;
+    cl::Event event;
+  };
 
   template <class F>
   void run(const F& enqueue) {
     with_opencl_errors(device_.name, [&] {
       cl::Event event;
-      enqueue(measures_ ? &event : nullptr);
-      if (!measures_) return;
+      const bool measures = measures_ && in_call_;
+      enqueue(measures ? &event : nullptr);
+      if (!measures) return;
       Call& call = calls_.back();
       if (call.first() == nullptr) call.first = event;
       call.last = event;
+    });
+  }
+
+  /// Calls enqueue(event) of a transfer.
+  template <class F>
+  void transfer(Transfer direction, std::size_t bytes, const F& enqueue) {
+    if (bytes == 0) return;
+    with_opencl_errors(device_.name, [&] {
+      cl::Event event;
+      enqueue(measures_ ? &event : nullptr);
+      if (measures_) copies_.push_back({direction, bytes, event});
     });
   }
 
@@ -96,7 +115,8 @@ class Queue {
   cl::Context context_;
   cl::CommandQueue queue_;
   std::vector<Call> calls_;
-  bool measures_ = false;
+  std::vector<Copy> copies_;
+  bool measures_ = false, in_call_ = false;
 };
 
 }  // namespace slambench
