@@ -13,7 +13,7 @@ ParameterList KinectFusionParameters::describe() {
           {"map", 0, "", &map, 0, 0, "how the volume is stored; auto: as the backend is quickest",
            maps},
           {"compute-size-ratio", 'c', "", &compute_size_ratio, 1, 8,
-           "input size divided by computation size: 1, 2, 4 or 8"},
+           "input size divided by computation size; divides width and height"},
           {"volume-resolution", 'v', "voxels", &volume_resolution, 8, 4096,
            "voxels along each axis"},
           {"volume-size", 's', "m", &volume_size_m, 0.01, 1000, "edges of the volume"},

@@ -156,6 +156,19 @@ TEST_F(SettingsTest, EveryPresetFitsTheParameters) {
             "did you mean 'slambench1'?");
 }
 
+/// The published values where the defaults differ from them (SLAMBench 1: the light is at
+/// (1, 1, -1) of the volume, the map is flat, every kernel runs on its own).
+TEST_F(SettingsTest, Slambench1IsAsPublished) {
+  SourceParameters source;
+  Settings settings({fusion_.describe(), backend_.describe(), source.describe()});
+  settings.apply(find_preset("slambench1"));
+  EXPECT_EQ(fusion_.light_m, (std::array<double, 3>{1, 1, -1}));
+  EXPECT_EQ(fusion_.light_frame, "volume");
+  EXPECT_EQ(fusion_.map, "grid");
+  EXPECT_FALSE(fusion_.fused);
+  EXPECT_EQ(source.icl_nuim_camera, "slambench1");
+}
+
 TEST(Nearest, FindsWhatWasMeant) {
   const std::vector<std::string_view> known = {"frames", "far", "near", "volume-size"};
   EXPECT_EQ(nearest("frame", known), "frames");
