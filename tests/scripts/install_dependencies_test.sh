@@ -10,7 +10,7 @@ work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 bin="$work/bin"
 mkdir "$bin"
-for tool in bash env sed awk dirname readlink; do ln -s "$(command -v $tool)" "$bin/$tool"; done
+for tool in bash env sed awk grep dirname readlink; do ln -s "$(command -v $tool)" "$bin/$tool"; done
 
 stand_in() { # NAME BODY
   printf '#!/bin/bash\n%s\n' "$2" >"$bin/$1"
@@ -92,6 +92,19 @@ run 0
 [[ ! -e "$work/apt" ]] || fail "the browser was installed unasked"
 run 1 browser --check
 says "chromium"
+
+# An optional package that apt does not know is left out; one that is needed is asked for all the same.
+stand_in dpkg-query 'case "${*: -1}" in libassimp-dev | libspng-dev) exit 1 ;; *) echo -n installed ;; esac'
+stand_in apt-cache '[[ $2 != libassimp-dev && $2 != libspng-dev ]]'
+run 0
+says "does not have it: libassimp-dev"
+installs "install --yes --quiet --no-install-recommends libspng-dev"
+stand_in dpkg-query '[[ ${*: -1} == libassimp-dev ]] || echo -n installed'
+run 0
+if grep -q '^install' "$work/apt"; then fail "apt-get install was called for nothing"; fi
+stand_in apt-cache 'exit 0'
+run 0
+installs "install --yes --quiet --no-install-recommends libassimp-dev"
 
 run 2 --force
 says "unknown argument '--force'"
