@@ -22,7 +22,7 @@ constexpr const char* record_name = "record.json";
 void flatten(const Json& json, const std::string& place, StoredRun* run) {
   if (json.is_object()) {
     for (const auto& [key, value] : json.items()) {
-      flatten(value, place.empty() ? key : place + "." + key, run);
+      flatten(value, place.empty() ? key : fmt::format("{}.{}", place, key), run);
     }
   } else if (json.is_number()) {
     run->numbers[place] = json.get<double>();

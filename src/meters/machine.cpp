@@ -45,9 +45,10 @@ double best_rate(const Clock& clock, int threads, const std::function<double(int
   };
   std::barrier round(threads, between);
   const auto run = [&](int thread) {
-    // `between` sets it. NOLINTNEXTLINE(clang-diagnostic-for-loop-analysis)
-    for (round.arrive_and_wait(); !done; round.arrive_and_wait()) {
+    round.arrive_and_wait();
+    while (!done) {
       amounts[static_cast<std::size_t>(thread)] = work(thread);
+      round.arrive_and_wait();
     }
   };
   {

@@ -70,6 +70,7 @@ Json path_json(const std::vector<Eigen::Vector3d>& points, std::size_t step) {
   Json json = Json::object();
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
+    values.reserve(points.size());
     for (const auto& point : points) values.push_back(point[axis]);
     json[axes[static_cast<std::size_t>(axis)]] = column(values, step, 1, 4);
   }

@@ -19,6 +19,7 @@ struct Picture {
 };
 
 /// A result folder as it was read (docs/record.md).
+// Moving nlohmann's JSON does not throw. NOLINTNEXTLINE(bugprone-exception-escape)
 struct ReportRun {
   std::string folder;  ///< as the user named it
   std::string name;    ///< what the report calls it

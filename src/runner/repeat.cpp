@@ -83,6 +83,7 @@ Record repeat_runs(const RunParameters& parameters,
     if (runs.size() > 1) runs.pop_back();
   }
   std::vector<std::map<std::string, Figure>> figures;
+  figures.reserve(runs.size());
   for (const Record& run : runs) figures.push_back(run_figures(run));
   const std::size_t shown = median_run(figures, order);
 

@@ -14,9 +14,9 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-constexpr Rgb8 oak{176, 128, 82}, walnut{112, 74, 48}, dark_wood{78, 52, 36}, white{232, 230, 224},
-    steel{150, 152, 156}, black{34, 34, 38}, sand{198, 178, 146}, petrol{58, 104, 116},
-    mustard{206, 156, 52}, brick{168, 76, 58};
+constexpr Rgb8 oak{176, 128, 82}, walnut{112, 74, 48}, white{232, 230, 224}, steel{150, 152, 156},
+    black{34, 34, 38}, sand{198, 178, 146}, petrol{58, 104, 116}, mustard{206, 156, 52},
+    brick{168, 76, 58};
 
 /// Turned legs at the four corners of a width x depth rectangle around (0, depth / 2).
 Mesh legs(float width, float depth, float height, float radius, Rgb8 color) {
