@@ -87,6 +87,15 @@ TEST_F(Pipeline, MakesVolumeAndWeightsAsConfigured) {
   EXPECT_EQ(fusion.map_bytes(), 16u * 8 * 12 * 4);
 }
 
+TEST_F(Pipeline, TakesBricksOnlyWhereTheBackendHasThem) {
+  p_.map = "auto";
+  make();
+  EXPECT_EQ(backend_.made.map, MapKind::bricks);
+  backend_.maps = {MapKind::grid};
+  make();
+  EXPECT_EQ(backend_.made.map, MapKind::grid);
+}
+
 TEST_F(Pipeline, PreprocessesWithTheSensorsScaleAndTheRange) {
   p_.bilateral_range_sigma_m = 0.25;
   KinectFusion fusion(backend_, p_, input, camera, 5000, nullptr);
@@ -412,7 +421,7 @@ TEST_F(Pipeline, JudgesByTheLevelThatRanLast) {
 // --- what does not fit together ------------------------------------------------------------------
 
 TEST_F(Pipeline, RefusesARatioThatDoesNotDivide) {
-  for (const int ratio : {5, 3}) {
+  for (const int ratio : {5, 3, 32}) {  // neither, width only, height only
     p_.compute_size_ratio = ratio;
     const std::string message = testing::message_of<UsageError>([&] { make(); });
     EXPECT_EQ(message, "--compute-size-ratio: found " + std::to_string(ratio) +

@@ -15,10 +15,13 @@ namespace slambench::testing {
 class RecordingBackend final : public HostBackend {
  public:
   std::string_view name() const override { return "recording"; }
-  bool supports(Kernel kernel, MapKind) const override { return missing.count(kernel) == 0; }
+  bool supports(Kernel kernel, MapKind map) const override {
+    return missing.count(kernel) == 0 && maps.count(map) > 0;
+  }
   void finish() override { ++finished; }
 
   std::set<Kernel> missing;
+  std::set<MapKind> maps = {MapKind::grid, MapKind::bricks};
   AlignResult answer;  ///< of the next align
 
   int finished = 0;
