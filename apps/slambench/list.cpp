@@ -304,12 +304,15 @@ Action add_list(CLI::App& command) {
                    "measure what the cores reach: copy bandwidth and multiply-add rate");
   command.add_option("--threads", options->threads, "with --machine; 0: one per core (default)")
       ->check(CLI::Range(0, 4096));
-  command
-      .add_option("--sysfs-root", options->meters.sysfs_root,
-                  "folder in which meters look for /sys and /proc, instead of /")
-      ->type_name("DIR");
-  command.add_option("--nvml-library", options->meters.nvml_library, "NVIDIA's management library")
-      ->type_name("FILE");
+  // Where meters look, as a run may be told.
+  const std::vector<ParameterList> lists = {options->meters.describe()};
+  for (const char* name : {"sysfs-root", "nvml-library"}) {
+    const Parameter& parameter = *find(lists, name);
+    command
+        .add_option(fmt::format("--{}", name), *std::get<std::string*>(parameter.value),
+                    help_sentence(parameter))
+        ->type_name("TEXT");
+  }
   command.add_flag("--json", options->json, "everything, or the machine, as one JSON object");
   return [options] {
     if (options->markdown && !options->parameters) {

@@ -68,9 +68,10 @@ struct FoundMeters {
 struct MeterEntry {
   std::string_view name;
   std::string_view sentence;
-  bool of_energy;
-  /// What there is here. Meters of memory and counters are not read by a Meter: they find none, and
-  /// are available all the same.
+  /// `state`: of the machine. `beside`: not read by a Meter but by who needs it (memory, counters):
+  /// such an entry finds no meters, and is available all the same.
+  enum class Kind { energy, state, beside } kind;
+  /// What there is here.
   FoundMeters (*find)(const MeterContext& context);
 };
 

@@ -11,20 +11,22 @@
 namespace slambench {
 namespace {
 
+using Kind = MeterEntry::Kind;
+
 constexpr MeterEntry entries[] = {
-    {"powercap", "energy of the processor, by Linux's power capping zones (Intel, AMD)", true,
-     find_powercap},
-    {"perf-power", "energy of the processor, by performance events power/energy-*/", true,
+    {"powercap", "energy of the processor, by Linux's power capping zones (Intel, AMD)",
+     Kind::energy, find_powercap},
+    {"perf-power", "energy of the processor, by performance events power/energy-*/", Kind::energy,
      find_perf_power},
-    {"ina231", "power of an ODROID-XU3's processors, GPU and memory", true, find_ina231},
-    {"ina3221", "power of a Jetson's supply lines", true, find_ina3221},
-    {"hwmon", "power and energy of any other chip that Linux knows", true, find_hwmon},
-    {"nvml", "energy of NVIDIA's GPUs, by their driver's library", true, find_nvml},
-    {"frequency", "frequency of the processors", false, find_frequency},
-    {"temperature", "temperature of processors and board", false, find_temperature},
-    {"memory", "resident memory of the process, now and at most", false, find_memory},
-    {"counters", "cycles, instructions, cache and branch misses by stage (--counters)", false,
-     find_counters},
+    {"ina231", "power of an ODROID-XU3's processors, GPU and memory", Kind::energy, find_ina231},
+    {"ina3221", "power of a Jetson's supply lines", Kind::energy, find_ina3221},
+    {"hwmon", "power and energy of any other chip that Linux knows", Kind::energy, find_hwmon},
+    {"nvml", "energy of NVIDIA's GPUs, by their driver's library", Kind::energy, find_nvml},
+    {"frequency", "frequency of the processors", Kind::state, find_frequency},
+    {"temperature", "temperature of processors and board", Kind::state, find_temperature},
+    {"memory", "resident memory of the process, now and at most", Kind::beside, find_memory},
+    {"counters", "cycles, instructions, cache and branch misses by stage (--counters)",
+     Kind::beside, find_counters},
 };
 
 /// "amdgpu", and "amdgpu 2" for the next of that name.
@@ -46,11 +48,12 @@ FoundMeters find_meters(const MeterContext& context) {
   FoundMeters all;
   bool has_powercap = false, has_energy = false;
   for (const MeterEntry& entry : entries) {
+    if (entry.kind == Kind::beside) continue;
     if (entry.name == "perf-power" && has_powercap) continue;  // the same counters
     FoundMeters found = entry.find(context);
     if (entry.name == "powercap") has_powercap = !found.meters.empty();
     std::move(found.meters.begin(), found.meters.end(), std::back_inserter(all.meters));
-    if (!entry.of_energy) continue;
+    if (entry.kind != Kind::energy) continue;
     has_energy = !all.meters.empty();
     std::move(found.refused.begin(), found.refused.end(), std::back_inserter(all.refused));
   }

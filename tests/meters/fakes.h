@@ -41,6 +41,7 @@ class FakePerfEvents final : public PerfEvents {
  public:
   using Key = std::tuple<std::uint32_t, std::uint64_t, int>;
   std::unique_ptr<PerfCount> open(const PerfEvent& event) const override {
+    ++opened;
     if (!refusal.empty()) throw MeterError(refusal);
     const Key key{event.type, event.config, event.cpu};
     if (!values.contains(key)) throw MeterError("no such counter");
@@ -48,6 +49,7 @@ class FakePerfEvents final : public PerfEvents {
   }
 
   std::string refusal;
+  mutable int opened = 0;  ///< how often one was asked for
   mutable std::map<Key, std::uint64_t> values;
 
  private:

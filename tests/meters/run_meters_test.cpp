@@ -250,6 +250,13 @@ TEST_F(RunMetersTest, MeasuresResidentMemoryFromTheBeginningOfTheRun) {
   EXPECT_LT(*m.memory.peak_resident_bytes, *m.memory.resident_bytes + 2 * bytes);
 }
 
+TEST_F(RunMetersTest, OpensNoCounterUnlessAskedTo) {
+  system_.odroid_old();
+  make();
+  run(1, 1);
+  EXPECT_EQ(perf_.opened, 0);
+}
+
 TEST_F(RunMetersTest, CountersAreThereWhenAskedForAndPermitted) {
   parameters_.counters = true;
   perf_.refusal = "not permitted";
