@@ -18,6 +18,7 @@ using Action = std::function<ExitStatus()>;
 Action add_run(CLI::App& command, const std::string& command_line);
 Action add_compare(CLI::App& command);
 Action add_evaluate(CLI::App& command);
+Action add_export(CLI::App& command);
 Action add_generate(CLI::App& command);
 Action add_info(CLI::App& command);
 Action add_list(CLI::App& command);

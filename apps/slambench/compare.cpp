@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "all_parameters.h"
 #include "analysis/comparison.h"
 #include "commands.h"
 #include "io/files.h"
@@ -52,11 +53,13 @@ std::string document(const std::vector<Comparison>& comparisons, const std::stri
 
 ExitStatus run(const CompareArguments& arguments) {
   const std::vector<Limit> limits = parse_limits(arguments.limits, true);
-  const RunGroup base = read_run_group(arguments.base);
+  const ParameterRoles& roles = arguments.options.roles;
+  const RunGroup base = read_run_group(arguments.base, roles);
   std::vector<RunGroup> others;
   for (const std::string& other : arguments.others) {
-    others.push_back(read_run_group(other));
-    if (!arguments.allow_different) require_same_task(base, others.back(), arguments.allowed);
+    others.push_back(read_run_group(other, roles));
+    if (!arguments.allow_different)
+      require_same_task(base, others.back(), arguments.allowed, roles);
   }
   std::vector<Comparison> comparisons;
   for (const RunGroup& other : others) {
@@ -81,6 +84,7 @@ ExitStatus run(const CompareArguments& arguments) {
 
 Action add_compare(CLI::App& command) {
   auto arguments = std::make_shared<CompareArguments>();
+  arguments->options.roles = roles_of(AllParameters().lists());
   command.add_option("BASE", arguments->base, "what the others are compared with")->required();
   command.add_option("OTHER", arguments->others, "what is compared")->required();
   command
@@ -94,6 +98,12 @@ Action add_compare(CLI::App& command) {
                   "with which all intervals together hold (default 0.95)")
       ->type_name("X")
       ->check(CLI::Range(0.5, 0.9999).description(""));
+  command
+      .add_option("--tolerance", arguments->options.tolerance,
+                  "accuracy that differs by no more than this part is the same, instead of 0.03 "
+                  "or what docs/compare.md says of small ones; 0: only equal is the same")
+      ->type_name("X")
+      ->check(CLI::Range(0.0, 1.0).description(""));
   command
       .add_option("--allow", arguments->allowed,
                   "compare although this differs: a parameter's name, or a place in record.json "

@@ -32,6 +32,8 @@ std::vector<Command> command_table(const std::string& command_line) {
       {"compare", "what differs between runs: ratios of all figures with intervals", add_compare},
       {"evaluate", "compare two trajectories: absolute trajectory and relative pose error",
        add_evaluate},
+      {"export", "hand runs to other programs: CSV, Google Benchmark, traces for Perfetto",
+       add_export},
       {"generate", "render a sequence, of the living room or an own mesh, to disk", add_generate},
       {"info", "what a sequence has: frames, camera, axes, ground truth, suggestions", add_info},
       {"list", "what there is: backends, maps, kernels, layouts, presets, parameters", add_list},

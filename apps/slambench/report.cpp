@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/result_folders.h"
 #include "commands.h"
 #include "io/files.h"
 #include "terminal.h"

@@ -288,11 +288,11 @@ ExitStatus run(RunArguments& arguments) {
     ProgressBar bar(progress_title(info.name, number), "frames", steady_clock(), show);
     RunHooks hooks;
     hooks.progress = [&](const Progress& at) { bar.show(at.done, at.total, remark(at)); };
+    hooks.begin = [&] { meters.begin(); };
     hooks.images = [&](const FrameRecord& frame, System& s) {
       if (number.last) save_images(frame, s, p.output.images, *folder);
     };
     hooks.stop = &interrupt.raised();
-    meters.begin();
     run_frames(*source, *system, timer, steady_clock(), p.run, hooks, &record);
     record.measurements = meters.end(static_cast<int>(frame_counts(record).processed));
     add_device_memory(*backend, &record.measurements);

@@ -133,12 +133,20 @@ Verdict direction(double base, double other) {
   return other < base ? Verdict::lower : Verdict::higher;
 }
 
-Verdict verdict_of(const FigureComparison& c, bool exact, Evidence evidence) {
-  if (exact) return c.base == c.other ? Verdict::same : direction(c.base, c.other);
+Verdict verdict_of(const FigureComparison& c, bool exact, Evidence evidence, Tolerance tolerance) {
+  const bool tolerated = tolerance.holds(c.base, c.other);
+  if (exact && c.base == c.other) return Verdict::same;
+  if (exact) return tolerated ? Verdict::tolerated : direction(c.base, c.other);
   if (c.base == c.other) return Verdict::no_difference;
-  if (!c.interval) return Verdict::unclear;
+  if (!c.interval) return tolerated ? Verdict::tolerated : Verdict::unclear;
   if (c.interval->contains_one()) return Verdict::no_difference;
+  if (tolerated) return Verdict::tolerated;
   return evidence == Evidence::frames ? Verdict::unclear : direction(c.base, c.other);
+}
+
+Tolerance tolerance_of(const NamedFigure& figure, const ComparisonOptions& options) {
+  const bool chosen = options.tolerance && figure.group == FigureGroup::accuracy;
+  return chosen ? Tolerance{.relative = *options.tolerance} : figure.tolerance;
 }
 
 bool wanted(const NamedFigure& figure, const ComparisonOptions& options) {
@@ -162,7 +170,8 @@ struct Candidate {
   }
 };
 
-FigureComparison compared(const Candidate& candidate, const Basis& basis, double alpha) {
+FigureComparison compared(const Candidate& candidate, const Basis& basis, double alpha,
+                          const ComparisonOptions& options) {
   FigureComparison c;
   c.figure = candidate.figure;
   c.base = center(candidate.base);
@@ -171,7 +180,7 @@ FigureComparison compared(const Candidate& candidate, const Basis& basis, double
   if (candidate.has_interval(basis)) {
     c.interval = interval_of(*c.figure, candidate.base, candidate.other, basis, alpha);
   }
-  c.verdict = verdict_of(c, candidate.exact, basis.evidence);
+  c.verdict = verdict_of(c, candidate.exact, basis.evidence, tolerance_of(*c.figure, options));
   return c;
 }
 
@@ -204,7 +213,7 @@ Comparison compare(const RunGroup& base, const RunGroup& other, const Comparison
   Comparison result;
   result.base = side(base);
   result.other = side(other);
-  result.differences = differences(base.runs.front(), other.runs.front());
+  result.differences = differences(base.runs.front(), other.runs.front(), options.roles);
   result.evidence = basis.evidence;
   result.confidence = options.confidence;
   if (const auto it = basis.base_frames.find("computation_s"); it != basis.base_frames.end()) {
@@ -216,7 +225,8 @@ Comparison compare(const RunGroup& base, const RunGroup& other, const Comparison
                     [&](const Candidate& c) { return c.has_interval(basis); }));
   const double alpha =
       (1 - options.confidence) / static_cast<double>(std::max<std::size_t>(result.intervals, 1));
-  for (const Candidate& c : candidates) result.figures.push_back(compared(c, basis, alpha));
+  for (const Candidate& c : candidates)
+    result.figures.push_back(compared(c, basis, alpha, options));
   return result;
 }
 
@@ -250,6 +260,8 @@ std::string verdict_text(const FigureComparison& comparison) {
   switch (comparison.verdict) {
     case Verdict::same:
       return "the same";
+    case Verdict::tolerated:
+      return "within tolerance";
     case Verdict::no_difference:
       return "no difference shown";
     case Verdict::unclear:

@@ -16,6 +16,7 @@ namespace slambench {
 
 enum class Verdict {
   same,           ///< equal, of a figure that does not scatter
+  tolerated,      ///< differ, by less than the figure's tolerance
   no_difference,  ///< the interval holds 1, or there is none
   unclear,        ///< the single runs differ, and nobody knows how much two runs do
   lower,
@@ -58,7 +59,9 @@ struct Comparison {
 /// What shall be compared.
 struct ComparisonOptions {
   double confidence = 0.95;
-  std::vector<std::string> figures;  ///< names; empty: all
+  std::vector<std::string> figures = {};  ///< names; empty: all
+  std::optional<double> tolerance = {};   ///< relative, of accuracy, instead of each figure's own
+  ParameterRoles roles = {};              ///< to say in what the runs differ
 };
 
 /// Every figure that both have. The intervals are as wide as it takes to hold all together: the

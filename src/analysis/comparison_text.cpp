@@ -72,18 +72,32 @@ Display display(const NamedFigure& figure) {
   return {figure.unit, 1};
 }
 
-/// Four digits that count, in nine columns.
-std::string number(double value) {
+/// Four digits that count, and `more`, in nine columns.
+std::string number(double value, int more) {
   if (value != 0 && (value >= 1e7 || value < 1e-4)) return fmt::format("{:.2e}", value);
-  const int decimals = value >= 1000 ? 0 : (value >= 100 ? 1 : (value >= 10 ? 2 : 3));
+  const int decimals = more + (value >= 1000 ? 0 : (value >= 100 ? 1 : (value >= 10 ? 2 : 3)));
   const bool whole = value == static_cast<double>(static_cast<long>(value));
   return whole && value >= 1000 ? fmt::format("{:.0f}", value)
                                 : fmt::format("{:.{}f}", value, decimals);
 }
 
-std::string value_text(const NamedFigure& figure, double value) {
-  if (figure.unit.empty()) return fmt::format("{:.0f}", value);
-  return number(value * display(figure).factor);
+/// With as many digits as it takes to tell the two sides apart where the difference is no chance.
+struct ValueTexts {
+  std::string base, other;
+};
+ValueTexts value_texts(const FigureComparison& c) {
+  const NamedFigure& figure = *c.figure;
+  const auto text = [&](double value, int more) {
+    if (figure.unit.empty()) return fmt::format("{:.0f}", value);
+    return number(value * display(figure).factor, more);
+  };
+  constexpr int most = 3;
+  ValueTexts texts;
+  for (int more = 0; more <= most; ++more) {
+    texts = {text(c.base, more), text(c.other, more)};
+    if (c.interval || texts.base != texts.other || c.base == c.other) break;
+  }
+  return texts;
 }
 
 std::string ratio_text(const FigureComparison& c) {
@@ -142,6 +156,12 @@ std::string side_text(const ComparedSide& side) {
 /// How the intervals came about and what they do not tell.
 std::vector<std::string> notes(const Comparison& c) {
   std::vector<std::string> list;
+  if (std::any_of(c.figures.begin(), c.figures.end(),
+                  [](const FigureComparison& f) { return f.verdict == Verdict::tolerated; })) {
+    list.emplace_back(
+        "Within tolerance: a difference in accuracy as another rounding of the same computation "
+        "makes it; --tolerance sets another.");
+  }
   if (c.intervals == 0) {
     list.emplace_back(
         "No interval can be given: a single run on each side without the times of "
@@ -203,8 +223,9 @@ std::string text_of(const Comparison& c) {
                   fmt::format("{:g} % interval", 100 * c.confidence), "");
     }
     before = f.figure;
-    text += row(fmt::format(" {}", short_name(*f.figure)), value_text(*f.figure, f.base),
-                value_text(*f.figure, f.other), ratio_text(f), interval_text(f), verdict_text(f));
+    const ValueTexts values = value_texts(f);
+    text += row(fmt::format(" {}", short_name(*f.figure)), values.base, values.other, ratio_text(f),
+                interval_text(f), verdict_text(f));
   }
   text += "\n";
   for (const std::string& note : notes(c)) text += paragraph("", 0, note);
@@ -234,9 +255,9 @@ std::string markdown_of(const Comparison& c) {
       100 * c.confidence);
   for (const FigureComparison& f : c.figures) {
     const std::string unit = display(*f.figure).unit;
+    const ValueTexts values = value_texts(f);
     text += fmt::format("| `{}`{} | {} | {} | {} | {} | {} |\n", f.figure->name,
-                        unit.empty() ? "" : fmt::format(", {}", unit),
-                        value_text(*f.figure, f.base), value_text(*f.figure, f.other),
+                        unit.empty() ? "" : fmt::format(", {}", unit), values.base, values.other,
                         ratio_text(f), interval_text(f), verdict_text(f));
   }
   text += "\n";

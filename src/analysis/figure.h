@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +15,17 @@ namespace slambench {
 /// What a figure is about: tables have a part for each.
 enum class FigureGroup { speed, stages, kernels, energy, memory, accuracy, frames };
 
+/// A difference that means nothing although every run of a program shows it: another rounding of
+/// the same computation leads to it. Either of the two is enough.
+struct Tolerance {
+  double relative = 0;
+  double absolute = 0;  ///< in the figure's unit
+  bool holds(double base, double other) const {
+    const double difference = std::abs(other - base);
+    return difference <= relative * std::abs(base) || difference <= absolute;
+  }
+};
+
 /// A number of a run that has a name of its own: comparisons, limits and tables speak of it by it.
 struct NamedFigure {
   std::string name;  ///< "kernel_raycast_s"
@@ -22,6 +34,7 @@ struct NamedFigure {
   std::string place;  ///< in record.json
   bool more_is_better = false;
   std::string sentence;
+  Tolerance tolerance = {};  ///< of comparisons
 };
 
 /// All of them, in the order of tables.

@@ -23,14 +23,6 @@ std::string_view take_field(std::string_view* row) {
   return field;
 }
 
-std::string_view take_line(std::string_view* text) {
-  const std::size_t end = text->find('\n');
-  std::string_view line = text->substr(0, end);
-  *text = end == std::string_view::npos ? std::string_view() : text->substr(end + 1);
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  return line;
-}
-
 std::size_t field_count(std::string_view row) {
   return 1 + static_cast<std::size_t>(std::count(row.begin(), row.end(), ','));
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <system_error>
 
 #include "core/error.h"
@@ -12,6 +13,22 @@
 namespace slambench {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// The last `parts` names of the path: "suite/serial-0".
+std::string path_end(const std::string& path, int parts) {
+  fs::path rest = fs::absolute(path).lexically_normal();
+  if (!rest.has_filename()) rest = rest.parent_path();
+  fs::path end = rest.filename();
+  for (int i = 1; i < parts && rest.parent_path() != rest; ++i) {
+    rest = rest.parent_path();
+    end = rest.filename() / end;
+  }
+  return end.string();
+}
+
+}  // namespace
 
 bool is_result_folder(const fs::path& folder) {
   std::error_code error;
@@ -28,6 +45,44 @@ std::vector<std::string> result_folders_in(const std::string& folder) {
   if (error) throw InputError(fmt::format("{}: {}", folder, error.message()));
   std::sort(found.begin(), found.end());
   return found;
+}
+
+std::vector<std::string> find_result_folders(const std::vector<std::string>& arguments) {
+  std::vector<std::string> folders;
+  std::set<fs::path> seen;
+  const auto add = [&](const std::string& folder) {
+    if (seen.insert(fs::canonical(folder)).second) folders.push_back(folder);
+  };
+  for (const std::string& argument : arguments) {
+    std::error_code error;
+    const fs::file_status status = fs::status(argument, error);
+    if (!fs::exists(status)) throw InputError(fmt::format("{}: no such folder", argument));
+    if (!fs::is_directory(status)) {
+      throw InputError(fmt::format("{}: found a file, expected a result folder", argument));
+    }
+    if (is_result_folder(argument)) {
+      add(argument);
+      continue;
+    }
+    const auto inside = result_folders_in(argument);
+    if (inside.empty()) {
+      throw InputError(fmt::format(
+          "{}: found no record.json, expected a result folder or a folder of them", argument));
+    }
+    for (const std::string& folder : inside) add(folder);
+  }
+  return folders;
+}
+
+std::vector<std::string> short_names(const std::vector<std::string>& folders) {
+  constexpr int longest = 8;
+  std::vector<std::string> names;
+  for (int parts = 1; parts <= longest; ++parts) {
+    names.clear();
+    for (const std::string& folder : folders) names.push_back(path_end(folder, parts));
+    if (std::set<std::string>(names.begin(), names.end()).size() == names.size()) break;
+  }
+  return names;
 }
 
 }  // namespace slambench

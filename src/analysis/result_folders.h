@@ -15,4 +15,12 @@ bool is_result_folder(const std::filesystem::path& folder);
 /// naming a folder that cannot be read, with the system's reason.
 std::vector<std::string> result_folders_in(const std::string& folder);
 
+/// The result folders that the arguments name: each is one, or holds some, which come in order of
+/// their names; none comes twice. Throws InputError for what is neither.
+std::vector<std::string> find_result_folders(const std::vector<std::string>& arguments);
+
+/// For each folder the shortest end of its path that tells it from the others: "openmp", or
+/// "monday/openmp" beside "tuesday/openmp".
+std::vector<std::string> short_names(const std::vector<std::string>& folders);
+
 }  // namespace slambench

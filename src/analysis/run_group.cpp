@@ -20,9 +20,8 @@ using Kind = RunDifference::Kind;
 
 constexpr const char* nothing = "nothing";
 
-/// Parameters that say how to compute, not what. A preset only names values that are all there.
-constexpr std::array<std::string_view, 6> implementation_parameters = {
-    "backend", "device", "threads", "map", "fused", "preset"};
+/// It only names values that are all there.
+constexpr std::string_view preset = "run.preset";
 
 constexpr std::array<std::string_view, 10> build_places = {
     "provenance.version",    "provenance.commit", "provenance.compiler", "provenance.flags",
@@ -82,18 +81,12 @@ std::string parameter_in(const std::string& place) {
   return place.substr(head.size(), place.size() - head.size() - tail.size());
 }
 
-/// Where the results go and how often the run is repeated changes none of them.
-bool is_compared(const std::string& parameter) {
-  return !parameter.starts_with("output.") && parameter != "run.repeat" &&
-         parameter != "run.warmup";
-}
-
 std::set<std::string> parameters_of(const StoredRun& base, const StoredRun& other) {
   std::set<std::string> names;
   for (const StoredRun* run : {&base, &other}) {
     for (const auto& [place, value] : run->texts) {
       const std::string parameter = parameter_in(place);
-      if (!parameter.empty() && is_compared(parameter)) names.insert(parameter);
+      if (!parameter.empty()) names.insert(parameter);
     }
   }
   return names;
@@ -108,6 +101,18 @@ std::string short_text(const std::string& text) {
   return text.size() <= most ? text : text.substr(0, most - 3) + "...";
 }
 
+}  // namespace
+
+ParameterRoles roles_of(const std::vector<ParameterList>& lists) {
+  ParameterRoles roles = {{std::string(preset), ParameterRole::implementation}};
+  for (const ParameterList& list : lists) {
+    for (const Parameter& p : list.parameters) {
+      roles[fmt::format("{}.{}", list.group, p.name)] = p.role;
+    }
+  }
+  return roles;
+}
+
 std::string list_text(const std::vector<RunDifference>& list) {
   std::string text;
   for (const RunDifference& d : list) {
@@ -117,14 +122,13 @@ std::string list_text(const std::vector<RunDifference>& list) {
   return text;
 }
 
-}  // namespace
-
 bool in_real_time(const StoredRun& run) {
   const std::string fps = parameter(run, "run.fps");
   return parameter(run, "run.real-time") == "true" || !(fps.empty() || fps == "0");
 }
 
-std::vector<RunDifference> differences(const StoredRun& base, const StoredRun& other) {
+std::vector<RunDifference> differences(const StoredRun& base, const StoredRun& other,
+                                       const ParameterRoles& roles) {
   std::vector<RunDifference> found;
   const auto add = [&](Kind kind, std::string key, const std::string& place) {
     const std::string b = value_at(base, place), o = value_at(other, place);
@@ -141,10 +145,12 @@ std::vector<RunDifference> differences(const StoredRun& base, const StoredRun& o
     add(Kind::task, std::string(place), std::string(place));
   }
   for (const std::string& full : parameters_of(base, other)) {
-    const std::string name = full.substr(full.find('.') + 1);
-    const bool how = std::find(implementation_parameters.begin(), implementation_parameters.end(),
-                               name) != implementation_parameters.end();
-    add(how ? Kind::implementation : Kind::task, name, fmt::format("parameters.{}.value", full));
+    const auto role = roles.find(full);
+    const bool known = role != roles.end();
+    if (known && role->second == ParameterRole::bookkeeping) continue;
+    const bool how = known && role->second == ParameterRole::implementation;
+    add(how ? Kind::implementation : Kind::task, full.substr(full.find('.') + 1),
+        fmt::format("parameters.{}.value", full));
   }
   for (const std::string_view place : build_places) {
     add(Kind::build, std::string(place.substr(place.find('.') + 1)), std::string(place));
@@ -155,8 +161,8 @@ std::vector<RunDifference> differences(const StoredRun& base, const StoredRun& o
 }
 
 void require_same_task(const RunGroup& base, const RunGroup& other,
-                       const std::vector<std::string>& allowed) {
-  std::vector<RunDifference> refused = differences(base.runs.front(), other.runs.front());
+                       const std::vector<std::string>& allowed, const ParameterRoles& roles) {
+  std::vector<RunDifference> refused = differences(base.runs.front(), other.runs.front(), roles);
   std::erase_if(refused, [&](const RunDifference& d) {
     return d.kind != Kind::task ||
            std::find(allowed.begin(), allowed.end(), d.key) != allowed.end();
@@ -168,7 +174,7 @@ void require_same_task(const RunGroup& base, const RunGroup& other,
                   base.name, other.name, list_text(refused)));
 }
 
-RunGroup read_run_group(const std::string& argument) {
+RunGroup read_run_group(const std::string& argument, const ParameterRoles& roles) {
   RunGroup group;
   group.name = argument;
   for (const std::string& part : parts(argument)) {
@@ -182,7 +188,7 @@ RunGroup read_run_group(const std::string& argument) {
                      return a.text("provenance.started_at") < b.text("provenance.started_at");
                    });
   for (const StoredRun& run : group.runs) {
-    const auto list = differences(group.runs.front(), run);
+    const auto list = differences(group.runs.front(), run, roles);
     if (list.empty()) continue;
     throw InputError(
         fmt::format("{}: its runs are not repeats of one another: {} and {} differ "

@@ -98,6 +98,11 @@ std::vector<double> numbers(const Parameter& parameter) {
 
 }  // namespace
 
+ParameterList with_role(ParameterRole role, ParameterList list) {
+  for (Parameter& parameter : list.parameters) parameter.role = role;
+  return list;
+}
+
 std::string to_text(const Parameter& parameter) {
   return std::visit(
       Overloaded{

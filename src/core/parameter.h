@@ -16,6 +16,13 @@ using ParameterPointer =
     std::variant<bool*, int*, double*, std::string*, std::array<int, 3>*, std::array<double, 3>*,
                  std::vector<int>*, std::optional<double>*, std::optional<std::array<double, 4>>*>;
 
+/// What of a run a parameter decides.
+enum class ParameterRole {
+  task,            ///< what is computed
+  implementation,  ///< how it is computed and measured: of equal use to the task
+  bookkeeping,     ///< where results go and how often the run is repeated
+};
+
 /// A described, live parameter. Structs of parameters describe themselves as a ParameterList;
 /// the command line, the configuration file, the help text, the record and a search space are all
 /// derived from that list, so a parameter is declared in one place.
@@ -29,6 +36,8 @@ struct Parameter {
   std::string_view sentence;  ///< what it does, for people
   /// Allowed words of a string parameter; empty: any.
   std::vector<std::string_view> choices = {};
+  /// Comparisons refuse runs that differ in a parameter of the task.
+  ParameterRole role = ParameterRole::task;
 };
 
 /// The parameters of one struct, under the name of their TOML table.
@@ -36,6 +45,9 @@ struct ParameterList {
   std::string_view group;
   std::vector<Parameter> parameters;
 };
+
+/// The list with this role for all of its parameters.
+ParameterList with_role(ParameterRole role, ParameterList list);
 
 /// The value as it would be written on the command line ("256,256,256", "0.1", "true"); an unset
 /// optional is "". Numbers round-trip.

@@ -30,4 +30,11 @@ std::string quote(std::string_view text);
 /// A field of a CSV file (RFC 4180): in quotes where it needs them.
 std::string csv_field(std::string_view text);
 
+/// The fields of a line of a CSV file, without their quotes. A line end within quotes is not
+/// understood: such a line has a field that nothing closes, and there are no fields then.
+std::vector<std::string> csv_fields(std::string_view line);
+
+/// Takes the next line, without its line end (LF or CR LF), off the front of the text.
+std::string_view take_line(std::string_view* text);
+
 }  // namespace slambench

@@ -63,17 +63,18 @@ EnergyFigures total_of(const std::vector<RailEnergy>& rails, double seconds, int
 }  // namespace
 
 ParameterList MeterParameters::describe() {
-  return {"meters",
-          {{"meter-rate", 0, "Hz", &meter_rate, 0, 1000,
-            "how often sensors of energy, frequency and temperature are read; 0: never"},
-           {"idle", 0, "s", &idle, 0, 3600,
-            "measure the idle machine's power for so long before the run; 0: not"},
-           {"counters", 0, "", &counters, 0, 0,
-            "count cycles, instructions, cache and branch misses of each stage"},
-           {"sysfs-root", 0, "", &sysfs_root, 0, 0,
-            "folder in which /sys and /proc are looked for, instead of /"},
-           {"nvml-library", 0, "", &nvml_library, 0, 0,
-            "NVIDIA's management library, a name that the loader finds or a path"}}};
+  return with_role(ParameterRole::implementation,
+                   {"meters",
+                    {{"meter-rate", 0, "Hz", &meter_rate, 0, 1000,
+                      "how often sensors of energy, frequency and temperature are read; 0: never"},
+                     {"idle", 0, "s", &idle, 0, 3600,
+                      "measure the idle machine's power for so long before the run; 0: not"},
+                     {"counters", 0, "", &counters, 0, 0,
+                      "count cycles, instructions, cache and branch misses of each stage"},
+                     {"sysfs-root", 0, "", &sysfs_root, 0, 0,
+                      "folder in which /sys and /proc are looked for, instead of /"},
+                     {"nvml-library", 0, "", &nvml_library, 0, 0,
+                      "NVIDIA's management library, a name that the loader finds or a path"}}});
 }
 
 MeterContext MeterParameters::context() const {

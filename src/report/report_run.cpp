@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
-#include <set>
 #include <string_view>
 #include <system_error>
 
@@ -81,52 +80,13 @@ std::vector<Picture> list_pictures(const fs::path& folder) {
   return pictures;
 }
 
-/// The last `parts` names of the path: "suite/serial-0".
-std::string path_end(const std::string& path, int parts) {
-  fs::path rest = fs::absolute(path).lexically_normal();
-  if (!rest.has_filename()) rest = rest.parent_path();
-  fs::path end = rest.filename();
-  for (int i = 1; i < parts && rest.parent_path() != rest; ++i) {
-    rest = rest.parent_path();
-    end = rest.filename() / end;
-  }
-  return end.string();
-}
-
 }  // namespace
-
-std::vector<std::string> find_result_folders(const std::vector<std::string>& arguments) {
-  std::vector<std::string> folders;
-  std::set<fs::path> seen;
-  const auto add = [&](const std::string& folder) {
-    if (seen.insert(fs::canonical(folder)).second) folders.push_back(folder);
-  };
-  for (const std::string& argument : arguments) {
-    std::error_code error;
-    const fs::file_status status = fs::status(argument, error);
-    if (!fs::exists(status)) throw InputError(fmt::format("{}: no such folder", argument));
-    if (!fs::is_directory(status)) {
-      throw InputError(fmt::format("{}: found a file, expected a result folder", argument));
-    }
-    if (is_result_folder(argument)) {
-      add(argument);
-      continue;
-    }
-    const auto inside = result_folders_in(argument);
-    if (inside.empty()) {
-      throw InputError(fmt::format(
-          "{}: found no record.json, expected a result folder or a folder of them", argument));
-    }
-    for (const std::string& folder : inside) add(folder);
-  }
-  return folders;
-}
 
 ReportRun read_report_run(const std::string& folder) {
   ReportRun run;
   const fs::path path(folder);
   run.folder = folder;
-  run.name = path_end(folder, 1);
+  run.name = short_names({folder}).front();
   run.record = read_record(path / "record.json");
   run.frames = read_frame_columns(path / "frames.csv");
   require_same_run(run, path / "frames.csv");
@@ -139,15 +99,10 @@ ReportRun read_report_run(const std::string& folder) {
 }
 
 void name_runs(std::vector<ReportRun>* runs) {
-  constexpr int longest = 8;
-  for (int parts = 1; parts <= longest; ++parts) {
-    std::set<std::string> names;
-    for (ReportRun& run : *runs) {
-      run.name = path_end(run.folder, parts);
-      names.insert(run.name);
-    }
-    if (names.size() == runs->size()) return;
-  }
+  std::vector<std::string> folders;
+  for (const ReportRun& run : *runs) folders.push_back(run.folder);
+  const std::vector<std::string> names = short_names(folders);
+  for (std::size_t i = 0; i < names.size(); ++i) (*runs)[i].name = names[i];
 }
 
 }  // namespace slambench

@@ -29,15 +29,11 @@ struct ReportRun {
   std::vector<Picture> pictures;  ///< by frame, then kind
 };
 
-/// The result folders that the arguments name: each is one, or holds some, which come in order of
-/// their names; none comes twice. Throws InputError for what is neither.
-std::vector<std::string> find_result_folders(const std::vector<std::string>& arguments);
-
 /// Throws InputError naming the file, and what was found and expected in it: a folder without one
 /// of its files, a record of another format or schema version, one that does not fit its frames.
 ReportRun read_report_run(const std::string& folder);
 
-/// Gives each run the shortest end of its path that tells it from the others.
+/// Gives each run the short name of its folder.
 void name_runs(std::vector<ReportRun>* runs);
 
 }  // namespace slambench

@@ -76,6 +76,7 @@ void add_header(std::size_t levels, Rows* rows) {
   for (std::size_t level = 0; level < levels; ++level) {
     rows->add(fmt::format("iterations_level{}", level));
   }
+  rows->add("start_s");
   rows->add("computation_s");
   rows->add("total_s");
   for (std::size_t i = 0; i < stage_count; ++i) {
@@ -123,7 +124,9 @@ void add_alignment(const FrameRecord& frame, std::size_t levels, Rows* rows) {
   rows->add_empty(levels - iterations.size());
 }
 
-void add_times(const FrameTimes& times, Rows* rows) {
+void add_times(const FrameRecord& frame, Rows* rows) {
+  const FrameTimes& times = frame.times;
+  rows->add(frame.start_s);
   rows->add(times.computation_s());
   rows->add(times.total_s());
   for (std::size_t i = 0; i < stage_count; ++i) {
@@ -150,7 +153,7 @@ void add_times(const FrameTimes& times, Rows* rows) {
 std::size_t time_column_count() {
   std::size_t kernels = 0;
   for (const KernelInfo& kernel : kernel_table()) kernels += within_frames(kernel.stage) ? 1 : 0;
-  return 2 + (stage_count - 1) + 2 * kernels + 3 * transfer_count;
+  return 3 + (stage_count - 1) + 2 * kernels + 3 * transfer_count;
 }
 
 }  // namespace
@@ -174,7 +177,7 @@ std::string frames_csv(const Record& record) {
       rows.add(frame.error_first_pose_m);
       rows.add(frame.error_se3_m);
       add_alignment(frame, levels, &rows);
-      add_times(frame.times, &rows);
+      add_times(frame, &rows);
     }
     rows.end();
   }

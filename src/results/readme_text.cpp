@@ -13,8 +13,8 @@ Files
   record.json     the run in figures: where it was made and from what, every
                   parameter, times per stage and kernel, accuracy, validity.
                   A figure that is missing has its reason under "absent".
-  frames.csv      a row a frame: pose, errors against ground truth, tracking,
-                  seconds and calls of every stage and kernel. Comma separated
+  frames.csv      a row a frame: pose, errors against ground truth, tracking, when
+                  it began, seconds and calls of every stage and kernel. Comma separated
                   (RFC 4180); a field is empty where there is no value.
   trajectory.tum  the estimated camera: "time tx ty tz qx qy qz qw" (metres, unit
                   quaternion), camera to world, in the sequence's own axes and

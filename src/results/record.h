@@ -29,6 +29,7 @@ struct FrameRecord {
   int index = 0;
   double time_s = 0;     ///< the sequence's time stamp
   bool dropped = false;  ///< real-time mode: never processed; all below is empty then
+  double start_s = 0;    ///< when it began to be read, since the first frame did
   bool tracked = false;
   bool integrated = false;
   Pose T_start_camera = Pose::Identity();  ///< estimate in y-down axes, start camera = identity

@@ -161,9 +161,24 @@ ParameterList RunParameters::describe() {
             "feed frames at this rate and drop those that come too late; 0: process every frame"},
            {"warmup-frames", 0, "frames", &warmup_frames, 0, most,
             "first processed frames that the time statistics leave out"},
-           {"repeat", 0, "runs", &repeat, 1, 1000,
-            "measure so many runs, and give each figure's median with a 95 % confidence interval"},
-           {"warmup", 0, "runs", &warmup, 0, 1000, "run so often before that without measuring"}}};
+           {"repeat",
+            0,
+            "runs",
+            &repeat,
+            1,
+            1000,
+            "measure so many runs, and give each figure's median with a 95 % confidence interval",
+            {},
+            ParameterRole::bookkeeping},
+           {"warmup",
+            0,
+            "runs",
+            &warmup,
+            0,
+            1000,
+            "run so often before that without measuring",
+            {},
+            ParameterRole::bookkeeping}}};
 }
 
 void check_ground_truth(Source& source, const RunParameters& parameters) {
@@ -193,11 +208,15 @@ void run_frames(Source& source, System& system, FrameTimer& timer, const Clock& 
   LiveError live_error(info.ground_truth);
   Frame frame;
 
+  if (hooks.begin) hooks.begin();
   RunTime time(clock);
+  const double first_s = clock.now_s();
   int index = 0;
   while (index < total && !stopped(hooks)) {
     if (fps && !wait_until(index / *fps, time, hooks)) break;
+    const double start_s = clock.now_s() - first_s;
     record->frames.push_back(process(index, source, system, timer, frame));
+    record->frames.back().start_s = start_s;
     time.hold_during([&] {
       FrameRecord& done = record->frames.back();
       hash.add(frame);

@@ -37,6 +37,7 @@ struct Progress {
 };
 
 struct RunHooks {
+  std::function<void()> begin;                              ///< just before the first frame
   std::function<void(const Progress&)> progress;            ///< after each frame
   std::function<void(const FrameRecord&, System&)> images;  ///< after each rendered frame, untimed
   const std::atomic<bool>* stop = nullptr;                  ///< set: end after this frame

@@ -11,7 +11,7 @@ ParameterList KinectFusionParameters::describe() {
       "kinectfusion",
       {
           {"map", 0, "", &map, 0, 0, "how the volume is stored; auto: as the backend is quickest",
-           maps},
+           maps, ParameterRole::implementation},
           {"compute-size-ratio", 'c', "", &compute_size_ratio, 1, 8,
            "input size divided by computation size; divides width and height"},
           {"volume-resolution", 'v', "voxels", &volume_resolution, 8, 4096,
@@ -75,7 +75,15 @@ ParameterList KinectFusionParameters::describe() {
            "what that is relative to: the camera, or the corner of the volume",
            {"camera", "volume"}},
           {"ambient", 0, "", &ambient, 0, 1, "brightness of surfaces turned away from the light"},
-          {"fused", 0, "", &fused, 0, 0, "kernels run fused where the backend has them so"},
+          {"fused",
+           0,
+           "",
+           &fused,
+           0,
+           0,
+           "kernels run fused where the backend has them so",
+           {},
+           ParameterRole::implementation},
       },
   };
 }

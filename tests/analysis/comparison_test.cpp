@@ -25,6 +25,11 @@ using ::testing::IsEmpty;
 using testing::message_of;
 using ::testing::Not;
 
+const ParameterRoles roles = {{"backend.threads", ParameterRole::implementation},
+                              {"run.repeat", ParameterRole::bookkeeping},
+                              {"run.warmup", ParameterRole::bookkeeping},
+                              {"output.out", ParameterRole::bookkeeping}};
+
 /// A machine on which runs of the same program differ.
 class NoisyMachine {
  public:
@@ -153,7 +158,8 @@ TEST(Compare, CallsNothingShownBySingleRuns) {
   NoisyMachine machine(1);
   write_results(folder.path("a"), false, machine.run(1));
   write_results(folder.path("b"), false, machine.run(1.5));
-  const RunGroup base = read_run_group(folder.path("a")), other = read_run_group(folder.path("b"));
+  const RunGroup base = read_run_group(folder.path("a"), roles),
+                 other = read_run_group(folder.path("b"), roles);
   const Comparison c = compare(base, other, {});
   EXPECT_EQ(c.evidence, Evidence::frames);
   EXPECT_EQ(c.frames, 39u);
@@ -205,6 +211,48 @@ TEST(Compare, ShowsNothingOfFiguresThatARecordDoesNotRepeat) {
   EXPECT_EQ(verdict_text(figure(c, "computation_p99_s")), "repeat to tell");
 }
 
+/// A run whose trajectory error is this, and the number of tracked frames that.
+StoredRun with_error(double ate_rmse_m, int tracked = 100) {
+  StoredRun run = stored(testing::sample_record());
+  run.repeats.clear();
+  run.numbers["accuracy.over_processed.ate_m.se3.rmse"] = ate_rmse_m;
+  run.numbers["frames.tracked"] = tracked;
+  return run;
+}
+
+TEST(Compare, TakesErrorsThatRoundingMovesForTheSame) {
+  const auto verdict = [](double base, double other, std::optional<double> tolerance = {}) {
+    const Comparison c = compare({"base", {with_error(base)}}, {"other", {with_error(other)}},
+                                 {.tolerance = tolerance});
+    return verdict_text(figure(c, "ate_rmse_m"));
+  };
+  EXPECT_EQ(verdict(0.020, 0.020), "the same");
+  EXPECT_EQ(verdict(0.020, 0.0203), "within tolerance");
+  EXPECT_EQ(verdict(0.020, 0.0197), "within tolerance");
+  EXPECT_EQ(verdict(0.020, 0.0207), "worse");
+  EXPECT_EQ(verdict(0.020, 0.0193), "better");
+  EXPECT_EQ(verdict(0.001, 0.00109), "within tolerance") << "0.09 mm";
+  EXPECT_EQ(verdict(0.001, 0.00111), "worse");
+  EXPECT_EQ(verdict(0.020, 0.0203, 0), "worse") << "only equal is the same";
+  EXPECT_EQ(verdict(0.001, 0.00109, 0), "worse");
+  EXPECT_EQ(verdict(0.020, 0.0203, 0.01), "worse");
+  EXPECT_EQ(verdict(0.020, 0.0219, 0.1), "within tolerance");
+}
+
+TEST(Compare, CountsHaveNoTolerance) {
+  const Comparison c = compare({"base", {with_error(0.02, 1000)}},
+                               {"other", {with_error(0.02, 999)}}, {.tolerance = 0.5});
+  EXPECT_EQ(verdict_text(figure(c, "tracked")), "fewer");
+}
+
+TEST(CompareDocuments, ShowTheDigitsInWhichErrorsDiffer) {
+  const Comparison c =
+      compare({"base", {with_error(0.0021504)}}, {"other", {with_error(0.00215043)}}, {});
+  EXPECT_THAT(comparison_text({c}), AllOf(HasSubstr("2.15040"), HasSubstr("2.15043"),
+                                          HasSubstr("within tolerance"), HasSubstr("--tolerance")));
+  EXPECT_THAT(comparison_markdown({c}), AllOf(HasSubstr("2.15040"), HasSubstr("2.15043")));
+}
+
 TEST(CompareViolations, CountRatiosOnlyBeyondTheirInterval) {
   const Two two = interleaved(3, 1.1, 10);
   const Comparison c = compare(two.base, two.other, {});
@@ -252,12 +300,12 @@ TEST(RunGroupTest, ReadsFoldersFilesAndLists) {
   }
   folder.write("all/notes.txt", "");
   folder.write(".hidden/record.json", "");
-  EXPECT_EQ(read_run_group(folder.path("all")).runs.size(), 2u);
-  EXPECT_EQ(read_run_group(folder.path("one")).runs.size(), 1u);
-  EXPECT_EQ(read_run_group(folder.path("one/record.json")).runs.size(), 1u);
-  EXPECT_EQ(read_run_group(folder.path("one") + "," + folder.path("all")).runs.size(), 3u);
+  EXPECT_EQ(read_run_group(folder.path("all"), roles).runs.size(), 2u);
+  EXPECT_EQ(read_run_group(folder.path("one"), roles).runs.size(), 1u);
+  EXPECT_EQ(read_run_group(folder.path("one/record.json"), roles).runs.size(), 1u);
+  EXPECT_EQ(read_run_group(folder.path("one") + "," + folder.path("all"), roles).runs.size(), 3u);
   folder.write("none/x", "");
-  EXPECT_THAT(message_of<InputError>([&] { read_run_group(folder.path("none")); }),
+  EXPECT_THAT(message_of<InputError>([&] { read_run_group(folder.path("none"), roles); }),
               HasSubstr("expected a result folder or a folder of result folders"));
 }
 
@@ -266,12 +314,12 @@ TEST(RunGroupTest, RefusesWhatDoesNotCountOrIsNoRepeat) {
   Record record = testing::sample_record();
   record.complete = false;
   write_results(folder.path("stopped"), false, record);
-  EXPECT_THAT(message_of<InputError>([&] { read_run_group(folder.path("stopped")); }),
+  EXPECT_THAT(message_of<InputError>([&] { read_run_group(folder.path("stopped"), roles); }),
               HasSubstr("the run was interrupted"));
   record = testing::sample_record();
   record.valid = false;
   write_results(folder.path("bad"), false, record);
-  EXPECT_THAT(message_of<InputError>([&] { read_run_group(folder.path("bad")); }),
+  EXPECT_THAT(message_of<InputError>([&] { read_run_group(folder.path("bad"), roles); }),
               HasSubstr("the run is not valid"));
   write_results(folder.path("both/1"), false, testing::sample_record());
   record = testing::sample_record();
@@ -279,7 +327,7 @@ TEST(RunGroupTest, RefusesWhatDoesNotCountOrIsNoRepeat) {
   record.parameters[1].value = "4,4,4";
   record.parameters.push_back({"output", "out", "", "elsewhere", "command line"});
   write_results(folder.path("both/2"), false, record);
-  EXPECT_THAT(message_of<InputError>([&] { read_run_group(folder.path("both")); }),
+  EXPECT_THAT(message_of<InputError>([&] { read_run_group(folder.path("both"), roles); }),
               AllOf(HasSubstr("not repeats of one another"),
                     HasSubstr("volume-size (5,5,5 against 4,4,4)"), Not(HasSubstr("elsewhere"))));
 }
@@ -294,17 +342,18 @@ TEST(RequireSameTask, NamesWhatDiffers) {
   record.provenance.cpu = "another CPU";
   const RunGroup other{"other", {stored(record)}};
   EXPECT_THAT(
-      message_of<InputError>([&] { require_same_task(base, other, {}); }),
+      message_of<InputError>([&] { require_same_task(base, other, {}, roles); }),
       AllOf(HasSubstr("base and other did not compute the same"),
             HasSubstr("sequence.input_hash (00112233445566778899aabbccddeeff against ff)"),
             HasSubstr("volume-size (5,5,5 against 4,4,4)"), HasSubstr("frames (nothing against 5)"),
             Not(HasSubstr("CPU")), Not(HasSubstr("threads"))));
   EXPECT_THAT(message_of<InputError>([&] {
-                require_same_task(base, other, {"volume-size", "frames"});
+                require_same_task(base, other, {"volume-size", "frames"}, roles);
               }),
               AllOf(HasSubstr("sequence.input_hash"), Not(HasSubstr("volume-size"))));
-  EXPECT_NO_THROW(require_same_task(base, other, {"volume-size", "frames", "sequence.input_hash"}));
-  const Comparison c = compare(base, other, {});
+  EXPECT_NO_THROW(
+      require_same_task(base, other, {"volume-size", "frames", "sequence.input_hash"}, roles));
+  const Comparison c = compare(base, other, {.confidence = 0.95, .figures = {}, .roles = roles});
   EXPECT_THAT(
       comparison_text({c}),
       AllOf(HasSubstr("in task: "), HasSubstr("in implementation: threads nothing against 1"),
@@ -316,10 +365,10 @@ TEST(RequireSameTask, HowOftenARunIsRepeatedIsNoDifference) {
   const RunGroup base{"base", {stored(record)}};
   record.parameters.push_back({"run", "repeat", "runs", "3", "command line"});
   record.parameters.push_back({"run", "warmup", "runs", "1", "command line"});
-  EXPECT_NO_THROW(require_same_task(base, {"other", {stored(record)}}, {}));
+  EXPECT_NO_THROW(require_same_task(base, {"other", {stored(record)}}, {}, roles));
   record.parameters.push_back({"run", "warmup-frames", "", "9", "command line"});
   EXPECT_THAT(message_of<InputError>([&] {
-                require_same_task(base, {"other", {stored(record)}}, {});
+                require_same_task(base, {"other", {stored(record)}}, {}, roles);
               }),
               HasSubstr("warmup-frames (nothing against 9)"));
 }
@@ -329,7 +378,7 @@ TEST(RequireSameTask, TakesEqualInputForEqualSequences) {
   const RunGroup base{"base", {stored(record)}};
   record.sequence = "another name";
   record.path = "/elsewhere";
-  EXPECT_NO_THROW(require_same_task(base, {"other", {stored(record)}}, {}));
+  EXPECT_NO_THROW(require_same_task(base, {"other", {stored(record)}}, {}, roles));
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/run_group.h"
 #include "cli/small_recording.h"
+#include "slambench/all_parameters.h"
 #include "support/program.h"
 
 namespace slambench {
@@ -66,6 +68,30 @@ TEST_F(CompareTest, RefusesDifferentTasksUnlessTold) {
   EXPECT_EQ(compare({"a"}).status, 2);
   EXPECT_EQ(compare({"a", "nowhere"}).status, 3);
   EXPECT_EQ(compare({"a", "a", "--format", "xml"}).status, 2);
+}
+
+TEST_F(CompareTest, HowItIsComputedAndMeasuredIsNoOtherTask) {
+  ASSERT_EQ(run("a").status, 0);
+  ASSERT_EQ(run("b", {"--opencl-raycast", "64,1,1", "--meter-rate", "5"}).status, 0);
+  const testing::Outcome outcome = compare({"a", "b"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("opencl-raycast 0,0,0"), HasSubstr("meter-rate 10 against 5")));
+}
+
+TEST(ParameterRoles, SayWhatDecidesTheResult) {
+  const ParameterRoles roles = roles_of(AllParameters().lists());
+  for (const char* task : {"kinectfusion.mu", "source.noise", "run.frames", "run.warmup-frames"}) {
+    EXPECT_EQ(roles.at(task), ParameterRole::task) << task;
+  }
+  for (const char* how : {"backend.backend", "backend.threads", "kinectfusion.map",
+                          "kinectfusion.fused", "opencl.opencl-raycast",
+                          "opencl.opencl-build-options", "meters.meter-rate", "run.preset"}) {
+    EXPECT_EQ(roles.at(how), ParameterRole::implementation) << how;
+  }
+  for (const char* where : {"output.out", "output.images", "run.repeat", "run.warmup"}) {
+    EXPECT_EQ(roles.at(where), ParameterRole::bookkeeping) << where;
+  }
 }
 
 TEST_F(CompareTest, EndsWithStatus5WhenALimitIsViolated) {

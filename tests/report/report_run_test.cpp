@@ -15,7 +15,6 @@ namespace slambench {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::message_of;
 
@@ -46,30 +45,12 @@ TEST_F(ReportRunTest, ReadsWhatARunLeaves) {
   EXPECT_EQ(run.pictures[1].kind, "depth");
 }
 
-TEST_F(ReportRunTest, FindsRunsInAFolderOfThem) {
-  const std::string b = testing::write_run(folder_, "suite/b", testing::full_record());
-  const std::string a = testing::write_run(folder_, "suite/a", testing::full_record());
-  folder_.write("suite/notes.txt", "not a run");
-  EXPECT_THAT(find_result_folders({folder_.path("suite")}), ElementsAre(a, b));
-  EXPECT_THAT(find_result_folders({b, folder_.path("suite")}), ElementsAre(b, a));
-}
-
 TEST_F(ReportRunTest, TellsRunsOfOneNameApart) {
   const auto runs =
       testing::read_runs({testing::write_run(folder_, "x/run", testing::full_record()),
                           testing::write_run(folder_, "y/run", testing::full_record())});
   EXPECT_EQ(runs[0].name, "x/run");
   EXPECT_EQ(runs[1].name, "y/run");
-}
-
-TEST_F(ReportRunTest, RefusesWhatIsNoResultFolder) {
-  const auto error = [](const std::string& path) {
-    return message_of<InputError>([&] { find_result_folders({path}); });
-  };
-  EXPECT_THAT(error(folder_.path("none")), HasSubstr("none: no such folder"));
-  EXPECT_THAT(error(folder_.write("file", "")), HasSubstr("expected a result folder"));
-  std::filesystem::create_directory(folder_.path("empty"));
-  EXPECT_THAT(error(folder_.path("empty")), HasSubstr("found no record.json"));
 }
 
 TEST_F(ReportRunTest, RefusesRecordsItDoesNotUnderstand) {

@@ -163,6 +163,7 @@ inline Record sample_record() {
       }
       if (i == 1) frame.error_first_pose_m = 0.0625;
       frame.times = sample_times(i == 0 ? 1000 : i);
+      frame.start_s = i == 0 ? 0 : 1000 + 4 * i;
     }
     r.frames.push_back(frame);
   }

@@ -328,28 +328,29 @@ TEST(RecordJson, SaysThatARunWasInterrupted) {
 TEST(FramesCsv, IsTheLiteralTextOfASmallRecord) {
   Record record = sample_record();
   record.frames.erase(record.frames.begin() + 3, record.frames.end());
-  EXPECT_EQ(frames_csv(record),
-            "index,time_s,dropped,warmup,tracked,integrated,x_m,y_m,z_m,qx,qy,qz,qw,"
-            "error_first_pose_m,error_se3_m,inliers,inlier_fraction,residual_m,"
-            "iterations_level0,iterations_level1,computation_s,total_s,"
-            "stage_acquire_s,stage_preprocess_s,stage_track_s,stage_integrate_s,stage_raycast_s,"
-            "stage_render_s,kernel_acquire_s,kernel_acquire_calls,kernel_mm2meters_s,"
-            "kernel_mm2meters_calls,kernel_bilateral_filter_s,kernel_bilateral_filter_calls,"
-            "kernel_half_sample_s,kernel_half_sample_calls,kernel_depth2vertex_s,"
-            "kernel_depth2vertex_calls,kernel_vertex2normal_s,kernel_vertex2normal_calls,"
-            "kernel_track_s,kernel_track_calls,kernel_reduce_s,kernel_reduce_calls,kernel_solve_s,"
-            "kernel_solve_calls,kernel_align_s,kernel_align_calls,kernel_integrate_s,"
-            "kernel_integrate_calls,kernel_raycast_s,kernel_raycast_calls,kernel_render_depth_s,"
-            "kernel_render_depth_calls,kernel_render_track_s,kernel_render_track_calls,"
-            "kernel_render_volume_s,kernel_render_volume_calls,"
-            "transfer_to_device_s,transfer_to_device_bytes,transfer_to_device_count,"
-            "transfer_to_host_s,transfer_to_host_bytes,transfer_to_host_count\r\n"
-            "0,0,0,1,0,1,0,0,0,0,0,0,1,,,,,,,,468.75,984.375,15.625,31.25,62.5,125,250,500,"
-            "15.625,1,31.25,1,,0,,0,,0,,0,62.5,4,,0,,0,,0,125,1,,0,,0,,0,,0,,,0,,,0\r\n"
-            "1,0.5,0,0,1,1,1,-0.25,0.5,0,0,0,1,0.0625,0.125,1000,0.5,0.001,4,3,0.46875,0.984375,"
-            "0.015625,0.03125,0.0625,0.125,0.25,0.5,"
-            "0.015625,1,0.03125,1,,0,,0,,0,,0,0.0625,4,,0,,0,,0,0.125,1,,0,,0,,0,,0,,,0,,,0\r\n"
-            "2,1,1,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,\r\n");
+  EXPECT_EQ(
+      frames_csv(record),
+      "index,time_s,dropped,warmup,tracked,integrated,x_m,y_m,z_m,qx,qy,qz,qw,"
+      "error_first_pose_m,error_se3_m,inliers,inlier_fraction,residual_m,"
+      "iterations_level0,iterations_level1,start_s,computation_s,total_s,"
+      "stage_acquire_s,stage_preprocess_s,stage_track_s,stage_integrate_s,stage_raycast_s,"
+      "stage_render_s,kernel_acquire_s,kernel_acquire_calls,kernel_mm2meters_s,"
+      "kernel_mm2meters_calls,kernel_bilateral_filter_s,kernel_bilateral_filter_calls,"
+      "kernel_half_sample_s,kernel_half_sample_calls,kernel_depth2vertex_s,"
+      "kernel_depth2vertex_calls,kernel_vertex2normal_s,kernel_vertex2normal_calls,"
+      "kernel_track_s,kernel_track_calls,kernel_reduce_s,kernel_reduce_calls,kernel_solve_s,"
+      "kernel_solve_calls,kernel_align_s,kernel_align_calls,kernel_integrate_s,"
+      "kernel_integrate_calls,kernel_raycast_s,kernel_raycast_calls,kernel_render_depth_s,"
+      "kernel_render_depth_calls,kernel_render_track_s,kernel_render_track_calls,"
+      "kernel_render_volume_s,kernel_render_volume_calls,"
+      "transfer_to_device_s,transfer_to_device_bytes,transfer_to_device_count,"
+      "transfer_to_host_s,transfer_to_host_bytes,transfer_to_host_count\r\n"
+      "0,0,0,1,0,1,0,0,0,0,0,0,1,,,,,,,,0,468.75,984.375,15.625,31.25,62.5,125,250,500,"
+      "15.625,1,31.25,1,,0,,0,,0,,0,62.5,4,,0,,0,,0,125,1,,0,,0,,0,,0,,,0,,,0\r\n"
+      "1,0.5,0,0,1,1,1,-0.25,0.5,0,0,0,1,0.0625,0.125,1000,0.5,0.001,4,3,1004,0.46875,0.984375,"
+      "0.015625,0.03125,0.0625,0.125,0.25,0.5,"
+      "0.015625,1,0.03125,1,,0,,0,,0,,0,0.0625,4,,0,,0,,0,0.125,1,,0,,0,,0,,0,,,0,,,0\r\n"
+      "2,1,1,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,\r\n");
 }
 
 TEST(FramesCsv, HasTransfersWhereThereWereAny) {

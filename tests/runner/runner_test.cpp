@@ -104,6 +104,7 @@ TEST_F(RunnerTest, AttributesTimeToTheFrameItWasSpentIn) {
     const StageScope stage(&timer_, Stage::init);
     clock_.advance(2);
   }
+  hooks_.begin = [&] { clock_.advance(5); };
   hooks_.images = [&](const FrameRecord&, System&) { clock_.advance(10); };
   hooks_.progress = [&](const Progress&) { clock_.advance(20); };
   const Record record = run(2);
@@ -117,6 +118,8 @@ TEST_F(RunnerTest, AttributesTimeToTheFrameItWasSpentIn) {
     EXPECT_EQ(frame.times.stage(Stage::init), 0);
     EXPECT_DOUBLE_EQ(frame.times.total_s(), frame_s);
   }
+  EXPECT_EQ(record.frames[0].start_s, 0);
+  EXPECT_DOUBLE_EQ(record.frames[1].start_s, frame_s + 10 + 20) << "but the clock goes on";
   EXPECT_DOUBLE_EQ(record.wall_s, 2 * frame_s) << "hooks do not count";
 }
 

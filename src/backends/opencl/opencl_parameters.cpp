@@ -56,7 +56,7 @@ ParameterList OpenclParameters::describe() {
   }
   list.parameters.push_back({"opencl-build-options", 0, "", &build_options, 0, 0,
                              "further options of OpenCL's compiler, for every kernel"});
-  return list;
+  return with_role(ParameterRole::implementation, std::move(list));
 }
 
 KernelLayout OpenclParameters::layout(std::string_view name, bool on_processor) const {
