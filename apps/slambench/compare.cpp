@@ -56,6 +56,7 @@ ExitStatus run(const CompareArguments& arguments) {
   const ParameterRoles& roles = arguments.options.roles;
   const RunGroup base = read_run_group(arguments.base, roles);
   std::vector<RunGroup> others;
+  others.reserve(arguments.others.size());
   for (const std::string& other : arguments.others) {
     others.push_back(read_run_group(other, roles));
     if (!arguments.allow_different)

@@ -167,6 +167,12 @@ TEST_F(Opencl, ABuildThatFailsShowsTheLog) {
 }
 
 TEST_F(Opencl, AKernelOverTheLocalMemoryIsUnavailable) {
+  // 6.0 (Debian 13) says of every kernel that it needs none.
+  const std::string device = opencl_devices()[0];
+  if (device.find("Portable Computing Language") != std::string::npos &&
+      device.find("driver 3.") == std::string::npos) {
+    GTEST_SKIP() << "this version of PoCL does not tell how much local memory a kernel needs";
+  }
   OpenclParameters parameters;
   parameters.build_options = "-DMOST_TILES=100000000";  // the later of two wins
   const auto backend = make_opencl_backend(0, parameters);

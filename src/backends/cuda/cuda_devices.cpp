@@ -31,6 +31,7 @@ std::vector<std::string> cuda_devices() {
   int count = 0;
   SLAMBENCH_CUDA(cudaGetDeviceCount(&count));
   std::vector<std::string> names;
+  names.reserve(static_cast<std::size_t>(count));
   for (int device = 0; device < count; ++device) names.push_back(cuda::device_name(device));
   return names;
 }

@@ -63,7 +63,9 @@ void mark_occupied(Int3 bricks, std::size_t brick, std::vector<std::uint8_t>* oc
   for (int z = std::max(0, bz - 1); z <= bz; ++z) {
     for (int y = std::max(0, by - 1); y <= by; ++y) {
       for (int x = std::max(0, bx - 1); x <= bx; ++x) {
-        (*occupied)[static_cast<std::size_t>((z * bricks.y + y) * bricks.x + x)] = 1;
+        (*occupied)[static_cast<std::size_t>(z * bricks.y + y) *
+                        static_cast<std::size_t>(bricks.x) +
+                    static_cast<std::size_t>(x)] = 1;
       }
     }
   }

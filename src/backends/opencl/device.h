@@ -9,6 +9,7 @@
 namespace slambench {
 
 /// A device of OpenCL 1.2 or later that has a compiler.
+// The bindings do not promise that a move throws nothing. NOLINTNEXTLINE(bugprone-exception-escape)
 struct OpenclDevice {
   cl::Device device;
   std::string name, platform, driver;

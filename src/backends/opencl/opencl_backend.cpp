@@ -258,7 +258,7 @@ AlignResult OpenclBackend::do_align(const AlignInput& input, double condition) {
                          memory(*input.model_normals), input.model_vertices->size, at);
     return total_of(groups);
   };
-  const AlignResult result =
+  AlignResult result =
       iterate_align(input, match, [&](const Reduction& sums) { return do_solve(sums, condition); });
   const auto last = static_cast<std::size_t>(result.last_level);
   if (input.keep_rows && result.iterations[last] > 0) {
