@@ -2,15 +2,18 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <functional>
 #include <map>
 #include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "commands.h"
 #include "config/nearest.h"
+#include "core/logged_error.h"
 #include "help.h"
 #include "results/provenance.h"
 #include "terminal.h"
@@ -140,14 +143,29 @@ ExitStatus run(int argc, char** argv) {
   return actions.at(chosen)();
 }
 
-/// Names from files and arguments may hold line ends and escapes: the message stays one line.
-int report(ExitStatus status, std::string message) {
-  for (char& c : message) {
+/// Names from files and arguments may hold line ends and escapes: a message stays one line.
+std::string one_line(std::string text) {
+  for (char& c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20 || byte == 0x7f) c = '?';
   }
-  print_error(fmt::format("slambench: {}\n", message));
+  return text;
+}
+
+int report(ExitStatus status, const std::string& message) {
+  print_error(fmt::format("slambench: {}\n", one_line(message)));
   return static_cast<int>(status);
+}
+
+/// The log comes below the message, indented.
+int report(const LoggedError& error) {
+  report(error.status(), error.message() + ":");
+  std::istringstream log(error.log());
+  for (std::string line; std::getline(log, line);) {
+    std::replace(line.begin(), line.end(), '\t', ' ');
+    print_error(fmt::format("  {}\n", one_line(line)));
+  }
+  return static_cast<int>(error.status());
 }
 
 }  // namespace
@@ -159,6 +177,8 @@ int main(int argc, char** argv) {
   try {
     slambench::prepare_standard_streams();
     return static_cast<int>(slambench::run(argc, argv));
+  } catch (const slambench::LoggedError& error) {
+    return slambench::report(error);
   } catch (const slambench::Error& error) {
     return slambench::report(error.status(), error.what());
   } catch (const std::bad_alloc&) {

@@ -57,6 +57,21 @@ TEST_P(Layouts, AgreeWithTheReference) {
   }
 }
 
+/// As in a grid of more voxels than 32 bits count, with lanes and without.
+TEST_P(Layouts, AgreeOnTheGridInWideIndices) {
+  BackendOptions options = with(GetParam().layout);
+  options.opencl.build_options = "-DWIDE=1";  // the later of two wins
+  Candidate candidate = make_candidate("opencl", options);
+  for (const Check& check : check_table()) {
+    const bool reads_the_volume =
+        check.kernel == Kernel::raycast || check.kernel == Kernel::render_volume;
+    if (!reads_the_volume) continue;
+    const Agreement result = agreement(check, candidate, MapKind::grid, {});
+    EXPECT_EQ(result.verdict, Verdict::agrees)
+        << check.name << ": " << (result.failures.empty() ? "" : result.failures.front().where);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, Layouts, ::testing::ValuesIn(cases),
                          [](const auto& test) { return std::string(test.param.name); });
 

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <numeric>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -245,6 +246,54 @@ TEST(OpenclWithoutPlatform, IsUnavailableAndSaysWhatWouldHelp) {
   EXPECT_EQ(list.status, 0);
   EXPECT_THAT(list.out, HasSubstr("unavailable"));
 }
+
+struct ErrorCase {
+  const char* name;
+  std::vector<std::string> arguments;
+  int status;
+  std::vector<const char*> words;
+};
+
+void PrintTo(const ErrorCase& error, std::ostream* os) { *os << error.name; }
+
+class OpenclError : public ::testing::TestWithParam<ErrorCase> {};
+
+/// On the command line.
+TEST_P(OpenclError, HasItsStatusAndSaysWhy) {
+  if (const std::string reason = opencl_obstacle(); !reason.empty()) GTEST_SKIP() << reason;
+  testing::Program program(SLAMBENCH_PROGRAM);
+  program.set_environment("POCL_MEMORY_LIMIT", "1");  // GiB; a buffer may have a quarter of it
+  std::vector<std::string> arguments = {
+      "run", "living-room/2", "--backend", "opencl", "--frames", "6", "-c", "8", "-v", "32", "-q"};
+  const ErrorCase& error = GetParam();
+  arguments.insert(arguments.end(), error.arguments.begin(), error.arguments.end());
+  const testing::Outcome outcome = program.run(arguments);
+  EXPECT_EQ(outcome.status, error.status) << outcome.err;
+  for (const char* word : error.words) EXPECT_THAT(outcome.err, HasSubstr(word));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, OpenclError,
+    ::testing::Values(
+        ErrorCase{"NoSuchIndex", {"--device", "99"}, 2, {"--device: found '99'", "(0: "}},
+        ErrorCase{"NoSuchName", {"--device", "abacus"}, 2, {"--device: found 'abacus'", "(0: "}},
+        ErrorCase{"NoSuchLayout",
+                  {"--opencl-raycast", "3,1,1"},
+                  2,
+                  {"--opencl-raycast: found 3,1,1", "a power of two"}},
+        ErrorCase{"BuildFailure",
+                  {"--opencl-build-options=-Dhalf_sample=5"},
+                  1,
+                  {"half_sample.cl does not build on", "the compiler says:\n  ", "error: "}},
+        ErrorCase{"LocalMemory",
+                  {"--opencl-build-options=-DMOST_TILES=100000000"},
+                  4,
+                  {"kernel start_depths: found 400000000 bytes of local memory needed"}},
+        ErrorCase{"Memory",
+                  {"-v", "1024", "--map", "grid"},
+                  4,
+                  {"volume of 1024x1024x1024 voxels", "found a buffer of 4096 MiB"}}),
+    [](const auto& test) { return std::string(test.param.name); });
 
 /// Looking for the quickest backend must not load drivers, which start threads.
 TEST(OpenclPreset, FastDoesNotTakeIt) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -22,30 +23,29 @@ constexpr std::size_t slack = 4;
 constexpr std::size_t most_planes_addressed =
     static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) / BrickMap::voxels;
 
+Int3 position_of(std::size_t brick, Int3 bricks) {
+  const auto linear = static_cast<int>(brick);
+  return {linear % bricks.x, linear / bricks.x % bricks.y, linear / bricks.x / bricks.y};
+}
+
 int bricks_along(int voxels) { return (voxels + BrickMap::edge - 1) / BrickMap::edge; }
 
-/// Calls f(brick, voxel of the brick, voxel of the flat volume, whether it is inside) for every
-/// voxel of the bricks; those beyond the resolution go with the last ones inside.
+/// Calls f(voxel of the brick, voxel of the flat volume, whether it is inside) for every voxel of a
+/// brick; those beyond the resolution go with the last ones inside.
 template <class F>
-void for_each_voxel(Int3 bricks, Int3 n, const F& f) {
+void for_each_voxel(std::size_t brick, Int3 bricks, Int3 n, const F& f) {
   constexpr int edge = BrickMap::edge;
-  std::size_t brick = 0;
-  for (int bz = 0; bz < bricks.z; ++bz) {
-    for (int by = 0; by < bricks.y; ++by) {
-      for (int bx = 0; bx < bricks.x; ++bx, ++brick) {
-        for (int i = 0; i < BrickMap::voxels; ++i) {
-          const int x = std::min(n.x - 1, bx * edge + i % edge);
-          const int y = std::min(n.y - 1, by * edge + i / edge % edge);
-          const int z = std::min(n.z - 1, bz * edge + i / edge / edge);
-          const auto row = static_cast<std::size_t>(z) * static_cast<std::size_t>(n.y) +
-                           static_cast<std::size_t>(y);
-          const bool inside = bx * edge + i % edge == x && by * edge + i / edge % edge == y &&
-                              bz * edge + i / edge / edge == z;
-          f(brick, static_cast<std::size_t>(i),
-            row * static_cast<std::size_t>(n.x) + static_cast<std::size_t>(x), inside);
-        }
-      }
-    }
+  const Int3 at = position_of(brick, bricks);
+  for (int i = 0; i < BrickMap::voxels; ++i) {
+    const Int3 wanted{at.x * edge + i % edge, at.y * edge + i / edge % edge,
+                      at.z * edge + i / edge / edge};
+    const Int3 nearest{std::min(n.x - 1, wanted.x), std::min(n.y - 1, wanted.y),
+                       std::min(n.z - 1, wanted.z)};
+    const std::size_t row = static_cast<std::size_t>(nearest.z) * static_cast<std::size_t>(n.y) +
+                            static_cast<std::size_t>(nearest.y);
+    const bool inside = nearest.x == wanted.x && nearest.y == wanted.y && nearest.z == wanted.z;
+    f(static_cast<std::size_t>(i),
+      row * static_cast<std::size_t>(n.x) + static_cast<std::size_t>(nearest.x), inside);
   }
 }
 
@@ -57,12 +57,10 @@ struct HostBricks {
 };
 
 void mark_occupied(Int3 bricks, std::size_t brick, std::vector<std::uint8_t>* occupied) {
-  const auto linear = static_cast<int>(brick);
-  const int bx = linear % bricks.x, by = linear / bricks.x % bricks.y;
-  const int bz = linear / bricks.x / bricks.y;
-  for (int z = std::max(0, bz - 1); z <= bz; ++z) {
-    for (int y = std::max(0, by - 1); y <= by; ++y) {
-      for (int x = std::max(0, bx - 1); x <= bx; ++x) {
+  const Int3 at = position_of(brick, bricks);
+  for (int z = std::max(0, at.z - 1); z <= at.z; ++z) {
+    for (int y = std::max(0, at.y - 1); y <= at.y; ++y) {
+      for (int x = std::max(0, at.x - 1); x <= at.x; ++x) {
         (*occupied)[static_cast<std::size_t>(z * bricks.y + y) *
                         static_cast<std::size_t>(bricks.x) +
                     static_cast<std::size_t>(x)] = 1;
@@ -71,13 +69,13 @@ void mark_occupied(Int3 bricks, std::size_t brick, std::vector<std::uint8_t>* oc
   }
 }
 
+bool all_equal(const std::array<std::int16_t, BrickMap::voxels>& values, std::int16_t value) {
+  return std::all_of(values.begin(), values.end(), [&](std::int16_t v) { return v == value; });
+}
+
 HostBricks bricks_of(Int3 bricks, Int3 resolution, const Voxel* voxels) {
   const std::size_t count = voxel_count(bricks);
-  std::vector<std::int16_t> tsdf(count * BrickMap::voxels), weights(count * BrickMap::voxels);
-  for_each_voxel(bricks, resolution, [&](std::size_t brick, std::size_t i, std::size_t flat, bool) {
-    tsdf[brick * BrickMap::voxels + i] = voxels[flat].tsdf;
-    weights[brick * BrickMap::voxels + i] = voxels[flat].weight;
-  });
+  std::array<std::int16_t, BrickMap::voxels> tsdf, weights;  // of one brick
   HostBricks host;
   host.distance_planes.resize(count);
   host.weight_planes.resize(count);
@@ -85,20 +83,22 @@ HostBricks bricks_of(Int3 bricks, Int3 resolution, const Voxel* voxels) {
   host.owners.resize(count + 1);
   host.distances.assign(BrickMap::voxels, Voxel{}.tsdf);
   for (std::size_t brick = 0; brick < count; ++brick) {
-    const std::int16_t* t = tsdf.data() + brick * BrickMap::voxels;
-    const std::int16_t* w = weights.data() + brick * BrickMap::voxels;
-    if (std::any_of(t, t + BrickMap::voxels, [](std::int16_t v) { return v != Voxel{}.tsdf; })) {
+    for_each_voxel(brick, bricks, resolution, [&](std::size_t i, std::size_t flat, bool) {
+      tsdf[i] = voxels[flat].tsdf;
+      weights[i] = voxels[flat].weight;
+    });
+    if (!all_equal(tsdf, Voxel{}.tsdf)) {
       const std::size_t plane = host.distances.size() / BrickMap::voxels;
       host.distance_planes[brick] = static_cast<std::int32_t>(plane);
       host.owners[plane] = static_cast<std::int32_t>(brick);
-      host.distances.insert(host.distances.end(), t, t + BrickMap::voxels);
+      host.distances.insert(host.distances.end(), tsdf.begin(), tsdf.end());
       mark_occupied(bricks, brick, &host.occupied);
     }
-    if (std::all_of(w, w + BrickMap::voxels, [&](std::int16_t v) { return v == w[0]; })) {
-      host.weight_planes[brick] = -1 - w[0];
+    if (all_equal(weights, weights[0])) {
+      host.weight_planes[brick] = -1 - weights[0];
     } else {
       host.weight_planes[brick] = static_cast<std::int32_t>(host.weights.size() / BrickMap::voxels);
-      host.weights.insert(host.weights.end(), w, w + BrickMap::voxels);
+      host.weights.insert(host.weights.end(), weights.begin(), weights.end());
     }
   }
   return host;
@@ -133,7 +133,7 @@ BrickMap::BrickMap(Queue& queue, Int3 resolution)
 
 std::size_t BrickMap::count() const { return voxel_count(bricks_); }
 
-void BrickMap::reserve(Queue& queue, std::size_t planes, std::size_t used, cl::Buffer* buffer,
+void BrickMap::reserve(Queue& queue, std::size_t planes, std::size_t used, DeviceMemory* buffer,
                        std::size_t* capacity) const {
   if (planes <= *capacity) return;
   if (planes > most_planes_addressed) {
@@ -143,7 +143,7 @@ void BrickMap::reserve(Queue& queue, std::size_t planes, std::size_t used, cl::B
   const std::size_t wanted = std::max({planes, *capacity + *capacity / 2, first_planes});
   const std::size_t fit = (queue.device().largest_buffer_bytes - slack) / plane_bytes;
   const std::size_t grown = std::max(planes, std::min({wanted, count() + 1, fit}));
-  const cl::Buffer larger = queue.allocate(grown * plane_bytes + slack);
+  const DeviceMemory larger = queue.allocate(grown * plane_bytes + slack);
   if (used > 0) queue.copy(larger, *buffer, used * plane_bytes);
   *buffer = larger;
   *capacity = grown;
@@ -191,14 +191,17 @@ void BrickMap::read(Queue& queue, Voxel* destination) const {
       downloaded<std::int16_t>(queue, distances, static_cast<std::size_t>(used[0]) * voxels);
   const auto weight =
       downloaded<std::int16_t>(queue, weights, static_cast<std::size_t>(used[1]) * voxels);
-  const auto read_voxel = [&](std::size_t brick, std::size_t i, std::size_t flat, bool inside) {
-    if (!inside) return;
-    destination[flat] = {tsdf[static_cast<std::size_t>(plane[brick]) * voxels + i],
-                         weight_plane[brick] < 0
-                             ? static_cast<std::int16_t>(-1 - weight_plane[brick])
-                             : weight[static_cast<std::size_t>(weight_plane[brick]) * voxels + i]};
-  };
-  for_each_voxel(bricks_, resolution_, read_voxel);
+  for (std::size_t brick = 0; brick < count(); ++brick) {
+    const std::int16_t* t = tsdf.data() + static_cast<std::size_t>(plane[brick]) * voxels;
+    const bool one_weight = weight_plane[brick] < 0;
+    const auto shared = static_cast<std::int16_t>(-1 - weight_plane[brick]);
+    const std::int16_t* w =
+        one_weight ? nullptr
+                   : weight.data() + static_cast<std::size_t>(weight_plane[brick]) * voxels;
+    for_each_voxel(brick, bricks_, resolution_, [&](std::size_t i, std::size_t flat, bool inside) {
+      if (inside) destination[flat] = {t[i], one_weight ? shared : w[i]};
+    });
+  }
 }
 
 void BrickMap::write(Queue& queue, const Voxel* source) {

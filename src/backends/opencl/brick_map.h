@@ -33,15 +33,15 @@ class BrickMap final : public Storage {
   void begin_classification(Queue& queue);
 
   // On the device.
-  cl::Buffer distance_planes, weight_planes;  ///< per brick
-  cl::Buffer distances, weights;              ///< the planes
-  cl::Buffer occupied, owners, varied;
-  cl::Buffer counters;  ///< planes of distances in use, of weights, bricks in the list
+  DeviceMemory distance_planes, weight_planes;  ///< per brick
+  DeviceMemory distances, weights;              ///< the planes
+  DeviceMemory occupied, owners, varied;
+  DeviceMemory counters;  ///< planes of distances in use, of weights, bricks in the list
   /// At least the planes of distances in use.
   std::size_t most_planes() const { return most_planes_; }
 
  private:
-  void reserve(Queue& queue, std::size_t planes, std::size_t used, cl::Buffer* buffer,
+  void reserve(Queue& queue, std::size_t planes, std::size_t used, DeviceMemory* buffer,
                std::size_t* capacity) const;
 
   Int3 resolution_, bricks_;

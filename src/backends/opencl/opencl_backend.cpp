@@ -25,8 +25,8 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 /// Device memory of an image or of the flat volume.
 class DeviceBuffer final : public Storage {
  public:
-  explicit DeviceBuffer(cl::Buffer memory) : buffer(std::move(memory)) {}
-  cl::Buffer buffer;
+  explicit DeviceBuffer(DeviceMemory memory) : buffer(std::move(memory)) {}
+  DeviceMemory buffer;
 };
 
 const cl::Buffer& memory(const Storage& storage) {
@@ -50,7 +50,12 @@ Size tiles_of(Size size, int tile) {
   return {(size.width + tile - 1) / tile, (size.height + tile - 1) / tile};
 }
 
-const char* map_macro(MapKind map) { return map == MapKind::bricks ? "-DBRICKS=1" : "-DBRICKS=0"; }
+/// Bricks are never addressed beyond 32 bits (brick_map.cpp).
+const char* map_macro(const Volume& volume) {
+  if (volume.map == MapKind::bricks) return "-DBRICKS=1 -DWIDE=0";
+  const bool wide = voxel_count(volume.resolution) > std::numeric_limits<std::int32_t>::max();
+  return wide ? "-DBRICKS=0 -DWIDE=1" : "-DBRICKS=0 -DWIDE=0";
+}
 
 Reduction reduction_of(const float (&total)[sum_columns]) {
   Reduction sum;
@@ -70,6 +75,11 @@ OpenclBackend::OpenclBackend(const OpenclDevice& device, const OpenclParameters&
     : queue_(device), programs_(queue_.context(), device, parameters) {
   parameters.check_layouts(device.is_processor);  // now, not when a kernel is first asked for
   total_ = queue_.allocate(sum_columns * sizeof(float));
+}
+
+std::optional<std::size_t> OpenclBackend::device_bytes() const {
+  if (queue_.device().is_processor) return std::nullopt;  // it is the host's memory
+  return queue_.allocated_bytes();
 }
 
 bool OpenclBackend::supports(Kernel kernel, MapKind map) const {
@@ -96,12 +106,7 @@ void OpenclBackend::download(void* destination, const Storage& source, std::size
 }
 
 std::unique_ptr<Storage> OpenclBackend::allocate_volume(MapKind map, Int3 resolution, Float3) {
-  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) / 2;
   if (map == MapKind::bricks) return std::make_unique<BrickMap>(queue_, resolution);
-  if (voxel_count(resolution) > most) {
-    throw UnavailableError(
-        fmt::format("opencl: found {} voxels, expected at most {}", voxel_count(resolution), most));
-  }
   return allocate(voxel_count(resolution) * sizeof(Voxel));
 }
 
@@ -124,7 +129,7 @@ std::size_t OpenclBackend::volume_bytes(const Volume& volume) const {
   return voxel_count(volume.resolution) * sizeof(Voxel);
 }
 
-const cl::Buffer& OpenclBackend::scratch(cl::Buffer& buffer, std::size_t bytes) {
+const cl::Buffer& OpenclBackend::scratch(DeviceMemory& buffer, std::size_t bytes) {
   if (buffer() == nullptr || buffer.getInfo<CL_MEM_SIZE>() < bytes) buffer = queue_.allocate(bytes);
   return buffer;
 }
@@ -278,9 +283,9 @@ void OpenclBackend::do_integrate(Volume& volume, const DeviceImage<float>& depth
   }
   DeviceKernel& kernel = programs_.get("integrate");
   const Int3 n = volume.resolution;
-  const auto rows = static_cast<std::size_t>(n.y) * static_cast<std::size_t>(n.z);
-  queue_.launch(kernel, kernel.packets(n.x) * rows, memory(*volume.storage), n,
-                voxel_size(n, volume.size_m), memory(depth_m), depth_m.size, parameters);
+  const std::size_t groups = kernel.groups(kernel.packets(n.x) * static_cast<std::size_t>(n.y));
+  queue_.launch_layers(kernel, groups, static_cast<std::size_t>(n.z), memory(*volume.storage), n,
+                       voxel_size(n, volume.size_m), memory(depth_m), depth_m.size, parameters);
 }
 
 void OpenclBackend::integrate_bricks(BrickMap& map, const Volume& volume,
@@ -321,7 +326,7 @@ int OpenclBackend::find_start_depths(const BrickMap& map, const Volume& volume, 
 
 void OpenclBackend::march(const cl::Buffer& vertices, const cl::Buffer& normals, Size size,
                           const Volume& volume, const RaycastParameters& parameters) {
-  DeviceKernel& kernel = programs_.get("raycast", map_macro(volume.map));
+  DeviceKernel& kernel = programs_.get("raycast", map_macro(volume));
   const int packet_width = kernel.layout.lanes == 1 ? 1 : 4;
   const int packet_height = kernel.layout.lanes / packet_width;
   const auto packets = static_cast<std::size_t>((size.width + packet_width - 1) / packet_width) *

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ class OpenclBackend final : public Backend {
   std::string driver() const override {
     return queue_.device().platform + " " + queue_.device().driver;
   }
+  std::optional<std::size_t> device_bytes() const override;
   bool supports(Kernel kernel, MapKind map) const override;
   bool times_itself() const override { return true; }
   void finish() override { queue_.finish(observer()); }
@@ -85,13 +87,13 @@ class OpenclBackend final : public Backend {
   /// Adds up the groups' sums and waits for them.
   Reduction total_of(std::size_t groups);
   /// A buffer that is kept and grows when needed.
-  const cl::Buffer& scratch(cl::Buffer& buffer, std::size_t bytes);
+  const cl::Buffer& scratch(DeviceMemory& buffer, std::size_t bytes);
 
   mutable Queue queue_;
   Programs programs_;
-  cl::Buffer partial_, total_;               ///< sums of groups, and of all
-  cl::Buffer tiles_, start_depths_;          ///< of the integration and of the raycast in progress
-  cl::Buffer seen_vertices_, seen_normals_;  ///< of render_volume
+  DeviceMemory partial_, total_;       ///< sums of groups, and of all
+  DeviceMemory tiles_, start_depths_;  ///< of the integration and of the raycast in progress
+  DeviceMemory seen_vertices_, seen_normals_;  ///< of render_volume
 };
 
 }  // namespace slambench

@@ -12,7 +12,7 @@
 
 #include "backends/opencl/kernels/kernel_texts.h"
 #include "backends/opencl/queue.h"
-#include "core/error.h"
+#include "core/logged_error.h"
 #include "io/files.h"
 
 namespace slambench {
@@ -90,9 +90,10 @@ cl::Program compiled(const cl::Context& context, const OpenclDevice& device,
   } catch (const cl::BuildError& error) {
     std::string log;
     for (const auto& [of, text] : error.getBuildLog()) log += text;
-    throw Error(ExitStatus::failed,
-                fmt::format("opencl: {}.cl does not build on {} with '{}'; the compiler says:\n{}",
-                            name, device.name, options, log));
+    throw LoggedError(ExitStatus::failed,
+                      fmt::format("opencl: {}.cl does not build on {} with '{}'; the compiler says",
+                                  name, device.name, options),
+                      log);
   }
   return program;
 }

@@ -38,24 +38,47 @@ void throw_opencl_error(const std::string& device, const cl::Error& error) {
   }
 }
 
-Queue::Queue(const OpenclDevice& device) : device_(device) {
+Queue::Queue(const OpenclDevice& device)
+    : device_(device), allocated_bytes_(std::make_shared<std::size_t>(0)) {
   with_opencl_errors(device_.name, [&] {
     context_ = cl::Context(device_.device);
     queue_ = cl::CommandQueue(context_, device_.device, CL_QUEUE_PROFILING_ENABLE);
   });
 }
 
-cl::Buffer Queue::allocate(std::size_t bytes) {
-  bytes = std::max<std::size_t>(bytes, 4);
+Queue::~Queue() {
+  try {
+    queue_.finish();
+  } catch (const cl::Error&) {  // nobody is left to tell
+  }
+}
+
+void Queue::require_memory(std::size_t bytes) const {
   if (bytes > device_.largest_buffer_bytes) {
     throw UnavailableError(
         fmt::format("opencl: found a buffer of {} MiB, expected at most {} on {}", bytes >> 20,
                     device_.largest_buffer_bytes >> 20, device_.name));
   }
+  // A driver may only find out when it uses the memory, and then not tell.
+  const std::size_t left = device_.memory_bytes - std::min(device_.memory_bytes, allocated_bytes());
+  if (bytes > left) {
+    throw UnavailableError(
+        fmt::format("opencl: found a buffer of {} MiB, expected at most the {} left of {} on {}",
+                    bytes >> 20, left >> 20, device_.memory_bytes >> 20, device_.name));
+  }
+}
+
+DeviceMemory Queue::allocate(std::size_t bytes) {
+  bytes = std::max<std::size_t>(bytes, 4);
+  require_memory(bytes);
+  // On a processor the memory is the host's, and is asked for now rather than when it is used.
+  const cl_mem_flags where = device_.is_processor ? CL_MEM_ALLOC_HOST_PTR : 0;
   return with_opencl_errors(device_.name, [&] {
-    cl::Buffer buffer(context_, CL_MEM_READ_WRITE, bytes);
+    cl::Buffer buffer(context_, CL_MEM_READ_WRITE | where, bytes);
     queue_.enqueueFillBuffer(buffer, std::uint8_t{0}, 0, bytes);
-    return buffer;
+    *allocated_bytes_ += bytes;
+    const auto give_back = [in_use = allocated_bytes_, bytes](void*) { *in_use -= bytes; };
+    return DeviceMemory(buffer, std::shared_ptr<void>(nullptr, give_back));
   });
 }
 

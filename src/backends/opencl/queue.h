@@ -4,7 +4,9 @@
 
 #include <CL/opencl.hpp>
 #include <cstddef>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "backends/opencl/device.h"
@@ -26,17 +28,33 @@ decltype(auto) with_opencl_errors(const std::string& device, const F& f) {
   }
 }
 
+/// Memory on the device, accounted for as long as this or a copy of it is there.
+class DeviceMemory : public cl::Buffer {
+ public:
+  DeviceMemory() = default;
+  DeviceMemory(const cl::Buffer& buffer, std::shared_ptr<void> account)
+      : cl::Buffer(buffer), account_(std::move(account)) {}
+
+ private:
+  std::shared_ptr<void> account_;
+};
+
 /// The device's queue of commands, in order: memory, transfers and launches. Knows which launches
 /// belong to which call of a kernel, and their times once they are done.
 class Queue {
  public:
   explicit Queue(const OpenclDevice& device);
+  /// Waits: a driver must not be left at work while the program ends.
+  ~Queue();
+  Queue(const Queue&) = delete;
+  Queue& operator=(const Queue&) = delete;
 
   const OpenclDevice& device() const { return device_; }
   const cl::Context& context() const { return context_; }
 
   /// Zeroed. Throws UnavailableError when the device has no such memory.
-  cl::Buffer allocate(std::size_t bytes);
+  DeviceMemory allocate(std::size_t bytes);
+  std::size_t allocated_bytes() const { return *allocated_bytes_; }
   /// Waits until the source may change again. Writing and reading are told of as transfers.
   void write(const cl::Buffer& destination, const void* source, std::size_t bytes);
   /// Waits for everything before.
@@ -50,17 +68,23 @@ class Queue {
   }
   void copy(const cl::Buffer& destination, const cl::Buffer& source, std::size_t bytes);
 
-  /// Launches so many groups of the kernel's group size with these arguments.
+  /// Launches so many groups of the kernel's group size, as often as there are layers, with these
+  /// arguments.
   template <class... Arguments>
-  void launch_groups(DeviceKernel& kernel, std::size_t groups, const Arguments&... arguments) {
+  void launch_layers(DeviceKernel& kernel, std::size_t groups, std::size_t layers,
+                     const Arguments&... arguments) {
     if (groups == 0) return;
     run([&](cl::Event* event) {
       cl_uint index = 0;
       (kernel.kernel.setArg(index++, arguments), ...);
       const auto group = static_cast<std::size_t>(kernel.layout.group);
-      queue_.enqueueNDRangeKernel(kernel.kernel, cl::NullRange, cl::NDRange(groups * group),
-                                  cl::NDRange(group), nullptr, event);
+      queue_.enqueueNDRangeKernel(kernel.kernel, cl::NullRange, cl::NDRange(groups * group, layers),
+                                  cl::NDRange(group, 1), nullptr, event);
     });
+  }
+  template <class... Arguments>
+  void launch_groups(DeviceKernel& kernel, std::size_t groups, const Arguments&... arguments) {
+    launch_layers(kernel, groups, 1, arguments...);
   }
   /// Launches what covers so many packets.
   template <class... Arguments>
@@ -77,6 +101,9 @@ class Queue {
   void finish(Observer* observer);
 
  private:
+  /// Throws UnavailableError when the device does not have so much more.
+  void require_memory(std::size_t bytes) const;
+
   struct Call {
     Kernel kernel;
     cl::Event first, last;
@@ -112,6 +139,7 @@ class Queue {
   }
 
   OpenclDevice device_;
+  std::shared_ptr<std::size_t> allocated_bytes_;  ///< shared with the memory's accounts
   cl::Context context_;
   cl::CommandQueue queue_;
   std::vector<Call> calls_;

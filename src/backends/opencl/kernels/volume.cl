@@ -159,11 +159,18 @@ inline void around(const Map* map, const Ints* x, const Ints* y, const Ints* z,
 
 #else
 
+// WIDE: there are more voxels than a lane can count.
 inline Floats tsdf_at(const Map* map, Ints x, Ints y, Ints z) {
-  const Ints index = 2 * ((z * map->n.y + y) * map->n.x + x);
-#define AT(lane, i) map->values[index lane]
-  return TO_FLOATS((Ints)(EACH(AT)));
+  global const int* pairs = (global const int*)map->values;
+  const Ints row = z * map->n.y + y;
+#if WIDE
+#define AT(lane, i) pairs[(size_t)(row lane) * map->n.x + x lane]
+  const Ints pair = (Ints)(EACH(AT));
 #undef AT
+#else
+  const Ints pair = gather_ints(pairs, row * map->n.x + x);
+#endif
+  return TO_FLOATS(low_half(pair));
 }
 
 inline void corners(const Map* map, const Ints* x, const Ints* y, const Ints* z,
