@@ -13,9 +13,7 @@ namespace slambench {
 class LoggedError : public Error {
  public:
   LoggedError(ExitStatus status, std::string message, std::string log)
-      : Error(status, message + ":\n" + log),
-        message_(std::move(message)),
-        log_(std::move(log)) {}
+      : Error(status, message + ":\n" + log), message_(std::move(message)), log_(std::move(log)) {}
 
   /// Without the log.
   const std::string& message() const { return message_; }
