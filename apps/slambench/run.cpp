@@ -27,6 +27,7 @@
 #include "open_sequence.h"
 #include "parameter_options.h"
 #include "progress.h"
+#include "results/color_picture.h"
 #include "results/provenance.h"
 #include "results/result_folder.h"
 #include "results/run_statistics.h"
@@ -146,12 +147,24 @@ std::string remark(const Progress& progress) {
   return fmt::format("error {:.1f} mm", *progress.frame->error_first_pose_m * 1e3);
 }
 
-void save_images(const FrameRecord& frame, System& system, int every, ResultFolder& folder) {
+/// Colour is not read with the frames that are processed: nothing of the system needs it.
+Image<Rgb8> read_color(int index, Source& source) {
+  if (!source.info().has_color) return {};
+  Frame frame;
+  source.set_color(true);
+  source.read(index, frame);
+  source.set_color(false);
+  return std::move(frame.color);
+}
+
+void save_images(const FrameRecord& frame, Source& source, System& system, int every,
+                 ResultFolder& folder) {
   if (every == 0 || frame.index % every != 0) return;
   const Pictures pictures = system.pictures();
   const auto write = [&](std::string_view name, const Image<Rgba8>& picture) {
     if (!picture.empty()) folder.write_image(frame.index, name, picture);
   };
+  write("color", color_picture(read_color(frame.index, source), pictures.depth.size()));
   write("depth", pictures.depth);
   write("track", pictures.track);
   // Drawn at the rendering rate only: an older one does not belong to this frame.
@@ -290,7 +303,7 @@ ExitStatus run(RunArguments& arguments) {
     hooks.progress = [&](const Progress& at) { bar.show(at.done, at.total, remark(at)); };
     hooks.begin = [&] { meters.begin(); };
     hooks.images = [&](const FrameRecord& frame, System& s) {
-      if (number.last) save_images(frame, s, p.output.images, *folder);
+      if (number.last) save_images(frame, *source, s, p.output.images, *folder);
     };
     hooks.stop = &interrupt.raised();
     run_frames(*source, *system, timer, steady_clock(), p.run, hooks, &record);

@@ -34,10 +34,11 @@ constexpr std::string_view samples =
 )";
 
 constexpr std::string_view images =
-    R"(  images/         pictures of some frames, named by frame: the depth image, what
-                  became of each pixel in tracking (grey used, black no
-                  measurement, red outside the view, green no surface there, blue
-                  too far, yellow wrong direction) and the reconstruction.
+    R"(  images/         pictures of some frames, named by frame: the colour image, where
+                  the sequence has one, the depth image, what became of each
+                  pixel in tracking (grey used, black no measurement, red outside
+                  the view, green no surface there, blue too far, yellow wrong
+                  direction) and the reconstruction.
 )";
 
 constexpr std::string_view evaluation = R"(

@@ -249,6 +249,19 @@ TEST_F(RunTest, SavesPictures) {
   EXPECT_FALSE(fs::exists(path("out/images/frame_000005_depth.png")));
 }
 
+TEST_F(RunTest, SavesTheColourOfASequenceThatHasIt) {
+  ASSERT_EQ(run({"run", "living-room/0", "--frames", "8", "--images", "4", "-c", "8", "-v", "32",
+                 "--quiet", "--out", "colour"})
+                .status,
+            0);
+  Image<Rgb8> picture;
+  read_png(path("colour/images/frame_000004_color.png"), picture);
+  EXPECT_EQ(picture.size(), (Size{80, 60}));
+  EXPECT_FALSE(picture == Image<Rgb8>(Size{80, 60}, picture(0, 0))) << "of one colour";
+  ASSERT_EQ(run(small({"--images", "4"})).status, 0);
+  EXPECT_FALSE(fs::exists(path("out/images/frame_000004_color.png"))) << "has none";
+}
+
 TEST_F(RunTest, MakesANewFolderUnderResults) {
   Arguments arguments = small();
   arguments.resize(arguments.size() - 2);
