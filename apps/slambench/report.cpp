@@ -9,9 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "all_parameters.h"
 #include "analysis/result_folders.h"
 #include "commands.h"
 #include "io/files.h"
+#include "report/report_entries.h"
 #include "terminal.h"
 
 namespace slambench {
@@ -20,7 +22,8 @@ namespace {
 struct Arguments {
   std::vector<std::string> runs;
   std::string out = "report.html";
-  bool force = false;
+  std::string title;  ///< empty: not said
+  bool force = false, each = false;
   ReportOptions options;
 };
 
@@ -54,12 +57,17 @@ ExitStatus make_report(const Arguments& arguments) {
   for (const std::string& folder : find_result_folders(arguments.runs)) {
     runs.push_back(read_report_run(folder));
   }
-  name_runs(&runs);
-  require_pictures(arguments, runs);
-  const std::string page = report_page(runs, arguments.options);
+  const std::size_t count = runs.size();
+  const ReportEntries entries =
+      report_entries(std::move(runs), roles_of(AllParameters().lists()), !arguments.each);
+  require_pictures(arguments, entries.runs);
+  ReportOptions options = arguments.options;
+  if (!entries.title.empty()) options.title = entries.title;
+  if (!arguments.title.empty()) options.title = arguments.title;
+  const std::string page = report_page(entries.runs, options);
   write_file(arguments.out, page);
-  print(fmt::format("{}: {} run{}, {:.1f} MB\n", arguments.out, runs.size(),
-                    runs.size() == 1 ? "" : "s", static_cast<double>(page.size()) / 1e6));
+  print(fmt::format("{}: {} run{}, {:.1f} MB\n", arguments.out, count, count == 1 ? "" : "s",
+                    static_cast<double>(page.size()) / 1e6));
   return ExitStatus::ok;
 }
 
@@ -74,11 +82,13 @@ Action add_report(CLI::App& command) {
       ->required();
   command.add_option("-o,--out", arguments->out, "the HTML file (default report.html)")
       ->type_name("FILE");
-  command.add_option("--title", arguments->options.title,
-                     "what stands on top (default 'SLAMBench report')");
+  command.add_option("--title", arguments->title,
+                     "what stands on top (default: that of the suite, else 'SLAMBench report')");
+  command.add_flag("--each", arguments->each,
+                   "show every run by itself, also those that only repeat others");
   command
       .add_option("--detail", arguments->options.detailed_runs,
-                  "show so many runs frame by frame, the first ones (default 8)")
+                  "show so many runs frame by frame (default 8), of several sequences those of one")
       ->check(CLI::Range(0, most_runs))
       ->type_name("N");
   command

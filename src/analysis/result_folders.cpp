@@ -28,6 +28,10 @@ std::string path_end(const std::string& path, int parts) {
   return end.string();
 }
 
+bool is_number(const std::string& text) {
+  return text.find_first_not_of("0123456789") == std::string::npos;
+}
+
 }  // namespace
 
 bool is_result_folder(const fs::path& folder) {
@@ -79,7 +83,10 @@ std::vector<std::string> short_names(const std::vector<std::string>& folders) {
   std::vector<std::string> names;
   for (int parts = 1; parts <= longest; ++parts) {
     names.clear();
-    for (const std::string& folder : folders) names.push_back(path_end(folder, parts));
+    for (const std::string& folder : folders) {
+      names.push_back(path_end(folder, parts));
+      if (is_number(names.back())) names.back() = path_end(folder, parts + 1);
+    }
     if (std::set<std::string>(names.begin(), names.end()).size() == names.size()) break;
   }
   return names;

@@ -20,7 +20,7 @@ std::vector<std::string> result_folders_in(const std::string& folder);
 std::vector<std::string> find_result_folders(const std::vector<std::string>& arguments);
 
 /// For each folder the shortest end of its path that tells it from the others: "openmp", or
-/// "monday/openmp" beside "tuesday/openmp".
+/// "monday/openmp" beside "tuesday/openmp". A number alone says nothing: "openmp/1".
 std::vector<std::string> short_names(const std::vector<std::string>& folders);
 
 }  // namespace slambench

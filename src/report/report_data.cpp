@@ -21,7 +21,8 @@ using Json = nlohmann::ordered_json;
 
 // What keeps a report below 10 MB: a frame takes some 150 bytes, a run's record some 10 KB.
 constexpr std::size_t most_frames = 12'000;            // of all runs together
-constexpr std::size_t most_picture_bytes = 2'400'000;  // likewise, as files
+constexpr std::size_t most_picture_bytes = 3'200'000;  // likewise, as files
+constexpr std::size_t most_samples = 500;              // of a sensor
 constexpr std::size_t usual_pictures = 4;              // frames a run
 
 /// The figure at a place of the record ("time.computation_s.mean"), if it has it.
@@ -132,6 +133,30 @@ std::optional<std::vector<Json>> pictures_json(const std::vector<const ReportRun
   return lists;
 }
 
+/// What a run's sensors of power said over time, in at most `most_samples` means each; `mean` where
+/// a reading is the mean since the one before.
+Json power_json(const ReportRun& run) {
+  Json list = Json::array();
+  for (const StoredSeries& series : run.samples) {
+    if (series.unit != "W" || series.values.empty()) continue;
+    const std::size_t step = (series.values.size() + most_samples - 1) / most_samples;
+    std::vector<double> times_s, values;
+    for (std::size_t i = 0; i < series.values.size(); i += step) {
+      const std::size_t end = std::min(i + step, series.values.size());
+      double sum = 0;
+      for (std::size_t k = i; k < end; ++k) sum += series.values[k];
+      times_s.push_back(series.times_s[end - 1]);
+      values.push_back(sum / static_cast<double>(end - i));
+    }
+    const std::string reads = run.stored.text("energy.rails." + series.meter + ".reads");
+    list.push_back({{"rail", series.meter},
+                    {"mean", reads == "energy"},
+                    {"time_s", column(times_s, 1, 1, 4)},
+                    {"power_w", column(values, 1, 1, 4)}});
+  }
+  return list;
+}
+
 /// What a run was given: "living-room/2, 300 frames, noise true". Runs on different inputs are no
 /// alternatives to each other.
 std::string input_text(const Json& record) {
@@ -189,12 +214,27 @@ std::vector<std::size_t> pareto_front(std::vector<TradeOff> points) {
   return front;
 }
 
+std::vector<std::size_t> detailed_runs(const std::vector<ReportRun>& runs,
+                                       const ReportOptions& options) {
+  std::map<std::string, std::size_t> counts;
+  for (const ReportRun& run : runs) ++counts[run.sequence];
+  std::string chosen;  // of equals the first in the order of the runs
+  for (const ReportRun& run : runs) {
+    if (chosen.empty() || counts[run.sequence] > counts[chosen]) chosen = run.sequence;
+  }
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto most = static_cast<std::size_t>(std::max(options.detailed_runs, 0));
+    if (runs[i].sequence == chosen && indices.size() < most) indices.push_back(i);
+  }
+  return indices;
+}
+
 Json report_data(const std::vector<ReportRun>& runs, const ReportOptions& options) {
-  const std::size_t detailed =
-      std::min(runs.size(), static_cast<std::size_t>(std::max(options.detailed_runs, 0)));
+  const std::vector<std::size_t> detailed = detailed_runs(runs, options);
   std::vector<const ReportRun*> shown;
   std::size_t frames = 0;
-  for (std::size_t i = 0; i < detailed; ++i) {
+  for (const std::size_t i : detailed) {
     shown.push_back(&runs[i]);
     frames += runs[i].frames.at("index").size();
   }
@@ -211,17 +251,24 @@ Json report_data(const std::vector<ReportRun>& runs, const ReportOptions& option
   Json data = {{"title", options.title},
                {"program", "slambench " + version_text()},
                {"limits",
-                {{"detailed_runs", detailed},
+                {{"detailed_runs", detailed.size()},
                  {"frame_step", step},
                  {"pictures_left_out", !pictures.has_value()}}},
                {"fronts", fronts_json(runs)},
                {"runs", Json::array()}};
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    Json run = {{"name", runs[i].name}, {"folder", runs[i].folder}, {"record", runs[i].record}};
-    if (i < detailed) {
+    Json run = {{"name", runs[i].name},
+                {"folder", runs[i].folder},
+                {"sequence", runs[i].sequence},
+                {"variant", runs[i].variant},
+                {"record", runs[i].record}};
+    const auto at = std::find(detailed.begin(), detailed.end(), i);
+    if (at != detailed.end()) {
+      const auto nth = static_cast<std::size_t>(at - detailed.begin());
       run["frames"] = frames_json(runs[i].frames, step);
       run["paths"] = paths_json(runs[i], step);
-      run["pictures"] = pictures ? (*pictures)[i] : Json::array();
+      run["power"] = power_json(runs[i]);
+      run["pictures"] = pictures ? (*pictures)[nth] : Json::array();
     }
     data["runs"].push_back(run);
   }

@@ -13,8 +13,8 @@ namespace slambench {
 /// What the user chose of a report.
 struct ReportOptions {
   std::string title = "SLAMBench report";
-  int detailed_runs = 8;            ///< the first ones, shown frame by frame as well
-  std::vector<int> picture_frames;  ///< whose pictures are shown; empty: a few of each run
+  int detailed_runs = 8;                 ///< shown frame by frame as well: see detailed_runs()
+  std::vector<int> picture_frames = {};  ///< whose pictures are shown; empty: a few of each run
 };
 
 /// All that the page shows, as the one JSON value that its script reads: the records as they are,
@@ -22,6 +22,11 @@ struct ReportOptions {
 /// sequences are thinned and pictures limited, so that the file stays small; `limits` says how.
 nlohmann::ordered_json report_data(const std::vector<ReportRun>& runs,
                                    const ReportOptions& options);
+
+/// The runs that are shown frame by frame: the first ones; where there are several sequences, of
+/// the one that has the most runs. In order.
+std::vector<std::size_t> detailed_runs(const std::vector<ReportRun>& runs,
+                                       const ReportOptions& options);
 
 /// Indices of the points that no other is as good as in both coordinates and better in one; in
 /// order of x. Less is better.

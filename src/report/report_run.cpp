@@ -88,21 +88,18 @@ ReportRun read_report_run(const std::string& folder) {
   run.folder = folder;
   run.name = short_names({folder}).front();
   run.record = read_record(path / "record.json");
+  run.stored = read_stored_run(folder);
+  run.sequence = run.stored.text("sequence.name");
+  run.variant = run.stored.text("provenance.backend");
   run.frames = read_frame_columns(path / "frames.csv");
   require_same_run(run, path / "frames.csv");
   if (run.record.at("frames").value("processed", Json()) != 0) {
     run.estimate = read_trajectory(path / "trajectory.tum");
   }
   if (fs::exists(path / "groundtruth.tum")) run.truth = read_trajectory(path / "groundtruth.tum");
+  if (fs::exists(path / "samples.csv")) run.samples = read_samples(path / "samples.csv");
   run.pictures = list_pictures(path / "images");
   return run;
-}
-
-void name_runs(std::vector<ReportRun>* runs) {
-  std::vector<std::string> folders;
-  for (const ReportRun& run : *runs) folders.push_back(run.folder);
-  const std::vector<std::string> names = short_names(folders);
-  for (std::size_t i = 0; i < names.size(); ++i) (*runs)[i].name = names[i];
 }
 
 }  // namespace slambench

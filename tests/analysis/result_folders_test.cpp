@@ -39,6 +39,7 @@ TEST(FindResultFolders, RefusesWhatIsNone) {
 TEST(ShortNames, AreAsLongAsItTakes) {
   EXPECT_THAT(short_names({"/r/a", "/r/b/"}), ElementsAre("a", "b"));
   EXPECT_THAT(short_names({"/r/x/run", "/r/y/run"}), ElementsAre("x/run", "y/run"));
+  EXPECT_THAT(short_names({"/r/a", "/r/b/1"}), ElementsAre("a", "b/1"));
 }
 
 }  // namespace

@@ -32,7 +32,10 @@ class BrowserTest : public ::testing::Test {
   /// The page after its script ran, without the data that it was made from. Fails when the console
   /// says anything; what the page is forbidden to fetch is said there.
   std::string loaded(const std::vector<std::string>& folders) {
-    const std::string page = report_page(testing::read_runs(folders), {});
+    return loaded(testing::read_runs(folders));
+  }
+  std::string loaded(const std::vector<ReportRun>& runs) {
+    const std::string page = report_page(runs, {});
     const std::string file = folder_.write("report.html", page);
     testing::Program chromium(SLAMBENCH_CHROMIUM);
     chromium.set_environment("HOME", folder_.path());
@@ -131,7 +134,44 @@ TEST_F(BrowserTest, ComparesRuns) {
   EXPECT_THAT(dom, HasSubstr("data-state=\"ready\""));
   EXPECT_TRUE(has_chart(dom, "chart-trade-off"));
   EXPECT_THAT(dom, HasSubstr("Pareto front"));
-  EXPECT_EQ(shown_figures(dom).size(), 16U);
+  // Eight figures of each, and their errors in the table of them.
+  EXPECT_EQ(shown_figures(dom).size(), 18U);
+  EXPECT_TRUE(has_chart(dom, "chart-stages"));
+  EXPECT_TRUE(has_chart(dom, "chart-power"));
+}
+
+/// Two sequences, three backends, two repeats of each: what the paper's experiment looks like.
+TEST_F(BrowserTest, ShowsSequencesByVariants) {
+  std::vector<ReportRun> runs;
+  for (const char* sequence : {"kt0", "kt2"}) {
+    for (const char* backend : {"serial", "openmp", "opencl"}) {
+      for (const int repeat : {1, 2}) {
+        Record record = testing::single_run();
+        record.sequence = record.input_hash = sequence;
+        record.provenance.backend = backend;
+        for (FrameRecord& frame : record.frames) {
+          if (!frame.dropped) frame.times = testing::sample_times(repeat);
+        }
+        runs.push_back(read_report_run(testing::write_run(
+            folder_, fmt::format("{}-{}/{}", sequence, backend, repeat), record)));
+      }
+    }
+  }
+  const std::string dom = loaded(report_entries(std::move(runs), {}, true).runs);
+  EXPECT_THAT(dom, HasSubstr("data-state=\"ready\""));
+  EXPECT_THAT(dom, HasSubstr("12 runs of 6 configurations"));
+  for (const char* id : {"chart-stages-1", "chart-stages-2", "chart-kernels-1", "chart-kernels-2",
+                         "chart-energy-1", "chart-energy-2", "chart-power", "chart-times"}) {
+    EXPECT_TRUE(has_chart(dom, id)) << id;
+  }
+  EXPECT_FALSE(has_chart(dom, "chart-stages"));
+  EXPECT_THAT(dom, HasSubstr("Shown are 3 of 6 runs, those on kt0."));
+  int errors = 0;  // in the table of all runs, and in that by sequence and variant
+  for (const Shown& figure : shown_figures(dom)) {
+    if (figure.place == "accuracy.over_processed.ate_m.se3.rmse") ++errors;
+  }
+  EXPECT_EQ(errors, 2 * 6);
+  EXPECT_THAT(dom, HasSubstr("20.70, max 20.70")) << "as SLAMBench 1 published it";
 }
 
 TEST_F(BrowserTest, SaysWhyThereIsNothing) {

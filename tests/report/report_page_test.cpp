@@ -123,6 +123,25 @@ TEST_F(ReportPageTest, LongSequencesAreThinned) {
   EXPECT_EQ(data.at("runs").at(0).at("frames").at("index").size(), 10'000U);
 }
 
+TEST_F(ReportPageTest, PowerIsThatOfTheSamples) {
+  Record record = testing::full_record();
+  SampleSeries many{"A15", "W", {}};
+  for (int i = 0; i < 1200; ++i) many.samples.push_back({0.5 * (i + 1), i % 3 == 0 ? 3.0 : 0.0});
+  record.measurements.sampling->series.push_back(many);
+  record.measurements.sampling->series.push_back({"Tctl", "degree C", {{1, 60}}});
+  const Json data = report_data(testing::read_runs({run("a", record)}), {});
+  const Json& power = data.at("runs").at(0).at("power");
+  ASSERT_EQ(power.size(), 2U) << "temperatures are no power";
+  EXPECT_EQ(power[0].at("rail"), "package-0");
+  EXPECT_EQ(power[0].at("mean"), true) << "of a counter of energy";
+  EXPECT_EQ(power[0].at("time_s"), (Json{0.0625, 0.125}));
+  EXPECT_EQ(power[0].at("power_w"), (Json{2, 8}));
+  ASSERT_EQ(power[1].at("time_s").size(), 400U) << "means of three";
+  EXPECT_EQ(power[1].at("mean"), false);
+  EXPECT_EQ(power[1].at("time_s").at(1), 3);
+  for (const Json& watts : power[1].at("power_w")) EXPECT_EQ(watts, 1);
+}
+
 TEST_F(ReportPageTest, PageIsCompleteSmallAndTakesNothingForMarkup) {
   if (!can_draw_charts()) GTEST_SKIP() << "built without plotly.js";
   Record record = testing::full_record();

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "io/png.h"
+#include "report/report_entries.h"
 #include "report/report_page.h"
 #include "results/result_folder.h"
 #include "results/sample_record.h"
@@ -27,6 +28,13 @@ inline Record full_record() {
   return record;
 }
 
+/// A record of a run that was not repeated.
+inline Record single_run() {
+  Record record = sample_record();
+  record.repetition = {};
+  return record;
+}
+
 /// Writes a result folder with a picture; returns its path.
 inline std::string write_run(const TemporaryFolder& folder, const std::string& name,
                              const Record& record) {
@@ -42,8 +50,7 @@ inline std::string write_run(const TemporaryFolder& folder, const std::string& n
 inline std::vector<ReportRun> read_runs(const std::vector<std::string>& paths) {
   std::vector<ReportRun> runs;
   for (const auto& path : paths) runs.push_back(read_report_run(path));
-  name_runs(&runs);
-  return runs;
+  return report_entries(std::move(runs), {}, false).runs;
 }
 
 }  // namespace slambench::testing

@@ -38,16 +38,17 @@ function layout(colors, more) {
 
 /** A category axis with the names of runs, the first on top. */
 function runAxis(colors, shown) {
-  return axis(colors, "", {tickvals: shown.map((_, i) => i), ticktext: shown.map((run) => label(run.name)),
+  return axis(colors, "", {tickvals: shown.map((_, i) => i), ticktext: shown.map((run) => label(nameOf(run))),
                            range: [shown.length - 0.4, -0.6], showgrid: false, zeroline: false,
                            tickfont: {color: colors.ink}});
 }
 
-const barHeight = (rows, each = 34) => 118 + each * rows;
+/** In panels, which are narrow, a legend has more lines. */
+const barHeight = (rows, each = 34) => (sequences.length > 1 ? 152 : 118) + each * rows;
 
 /** Stage times as bars on top of each other; the frame rate at their end. */
-function stageChart(colors) {
-  const shown = runs.filter((run) => run.record.time.stages);
+function stageChart(colors, among) {
+  const shown = among.filter((run) => run.record.time.stages);
   const total = (run) => run.record.time.computation_s.mean * 1e3;
   const traces = computation.map((stage) => ({
     type: "bar", orientation: "h", name: stage, y: shown.map((_, i) => i),
@@ -64,7 +65,7 @@ function stageChart(colors) {
   const longest = Math.max(...ends);
   const repeated = shown.map((_, i) => i).filter((i) => ranges[i]);
   if (repeated.length) {
-    traces.push({type: "scatter", mode: "markers", name: "95 % interval over repeated runs",
+    traces.push({type: "scatter", mode: "markers", name: "95 % interval",
       x: repeated.map((i) => total(shown[i])), y: repeated, marker: {color: colors.ink, size: 1},
       error_x: {type: "data", symmetric: false, color: colors.ink, thickness: 1.5, width: 5,
                 array: repeated.map((i) => ranges[i].high - total(shown[i])),
@@ -76,29 +77,60 @@ function stageChart(colors) {
     text: `<b>${text(run.record.time.fps_computation)}</b> FPS`}));
   return {data: traces, layout: layout(colors, {
     barmode: "stack", bargap: 0.32, height: barHeight(shown.length, 42), annotations,
-    xaxis: axis(colors, "mean time of a frame, ms", {range: [0, longest * 1.25]}), yaxis: runAxis(colors, shown)})};
+    xaxis: axis(colors, "mean time of a frame, ms", {range: [0, longest * (sequences.length > 1 ? 1.4 : 1.25)]}), yaxis: runAxis(colors, shown)})};
 }
 
-/** Kernels of all shown runs in the order of the pipeline. */
-function kernelNames(shown) {
-  const names = [];
+/** Kernels of all shown runs in the order of the pipeline, with their stages. */
+function kernelsOf(shown) {
+  const stages = new Map();
   for (const run of shown) {
     for (const [name, kernel] of Object.entries(run.record.time.kernels)) {
-      if (computation.includes(kernel.stage) && !names.includes(name)) names.push(name);
+      if (computation.includes(kernel.stage)) stages.set(name, kernel.stage);
     }
   }
-  return names;
+  return [...stages].sort(([, a], [, b]) => computation.indexOf(a) - computation.indexOf(b));
+}
+const kernelNames = (shown) => kernelsOf(shown).map(([name]) => name);
+
+/** The colour with so much white in it, 0 to 1. */
+function lighter(color, white) {
+  const part = (at) => Math.round(parseInt(color.slice(at, at + 2), 16) * (1 - white) + 255 * white);
+  return `rgb(${part(1)},${part(3)},${part(5)})`;
+}
+
+/** Several runs: shares of kernels as bars of the same length; kernels of a stage have shades of its colour. */
+function kernelShares(colors, among) {
+  const shown = among.filter((run) => run.record.time.kernels);
+  const kernels = kernelsOf(shown);
+  const traces = kernels.map(([name, stage], k) => {
+    const siblings = kernels.filter(([, other]) => other === stage);
+    const nth = siblings.findIndex(([other]) => other === name);
+    const of = (run) => run.record.time.kernels[name];
+    return {type: "bar", orientation: "h", name, y: shown.map((_, i) => i),
+      x: shown.map((run) => (of(run)?.share_of_computation ?? 0) * 100),
+      marker: {color: lighter(stageColors[stage], (1 - (nth + 1) / siblings.length) * 0.7), line: {color: colors.page, width: 1}},
+      customdata: shown.map((run) => [plain(run.name), of(run) ? `${text(of(run).seconds_per_frame * 1e3)} ms a frame` : "not called"]),
+      hovertemplate: `<b>${name}</b> (${stage}), %{customdata[0]}<br>%{x:.2f} % of computation, %{customdata[1]}<extra></extra>`};
+  });
+  const rest = shown.map((run) => 100 * (1 - kernels.reduce((sum, [name]) => sum + (run.record.time.kernels[name]?.share_of_computation ?? 0), 0)));
+  if (rest.some((share) => share > 1)) {
+    traces.push({type: "bar", orientation: "h", name: "in no kernel", y: shown.map((_, i) => i), x: rest.map((share) => Math.max(share, 0)),
+      marker: {color: stageColors.acquire, line: {color: colors.page, width: 1}}, customdata: shown.map((run) => plain(run.name)),
+      hovertemplate: "in no kernel, %{customdata}<br>%{x:.2f} % of computation<extra></extra>"});
+  }
+  return {data: traces, layout: layout(colors, {barmode: "stack", bargap: 0.3, height: barHeight(shown.length, 38) + 44,
+    xaxis: axis(colors, "share of computation, %", {range: [0, 102]}), yaxis: runAxis(colors, shown)})};
 }
 
 /** Up to four runs: a bar for each kernel and run. */
-function kernelBars(colors) {
-  const shown = runs.filter((run) => run.record.time.kernels);
+function kernelBars(colors, among) {
+  const shown = among.filter((run) => run.record.time.kernels);
   const names = kernelNames(shown);
   const traces = shown.map((run, r) => {
     const kernels = names.map((name) => run.record.time.kernels[name]);
     return {
-      type: "bar", orientation: "h", name: label(run.name), y: names, x: kernels.map((k) => (k ? k.seconds_per_frame * 1e3 : null)),
-      marker: {color: shown.length === 1 ? kernels.map((k) => stageColors[k.stage]) : runColor(runs.indexOf(run))},
+      type: "bar", orientation: "h", name: label(nameOf(run)), y: names, x: kernels.map((k) => (k ? k.seconds_per_frame * 1e3 : null)),
+      marker: {color: shown.length === 1 ? kernels.map((k) => stageColors[k.stage]) : colorOf(run)},
       text: kernels.map((k) => (k?.share_of_computation === undefined ? "" : percent(k.share_of_computation))),
       textposition: "outside", cliponaxis: false, textfont: {color: colors.soft, size: 11},
       customdata: kernels.map((k) => (k ? [k.stage, text(k.calls_per_frame), text(k.seconds_per_call * 1e3)] : ["", "", ""])),
@@ -113,8 +145,8 @@ function kernelBars(colors) {
 }
 
 /** More runs: a table of shares with colours. */
-function kernelMap(colors) {
-  const shown = runs.filter((run) => run.record.time.kernels);
+function kernelMap(colors, among) {
+  const shown = among.filter((run) => run.record.time.kernels);
   const names = kernelNames(shown);
   const share = (run, name) => {
     const s = run.record.time.kernels[name]?.share_of_computation;
@@ -177,11 +209,11 @@ function timeChart(colors) {
         hovertemplate: `frame %{x}, <b>${stage}</b> %{y:.3f} ms<extra></extra>`});
     }
   } else {
-    detailed.forEach((run, i) => traces.push({type: "scatter", mode: "lines", name: label(run.name), connectgaps: true,
-      x: run.frames.index, y: run.frames.computation_ms, line: {width: 1.3, color: runColor(i)},
+    detailed.forEach((run) => traces.push({type: "scatter", mode: "lines", name: label(nameOf(run)), connectgaps: true,
+      x: run.frames.index, y: run.frames.computation_ms, line: {width: 1.3, color: colorOf(run)},
       hovertemplate: `frame %{x}<br>%{y:.3f} ms of computation<extra>${plain(run.name)}</extra>`}));
   }
-  detailed.forEach((run, i) => traces.push(...frameMarks(run, detailed.length === 1 ? colors.lost : runColor(i),
+  detailed.forEach((run) => traces.push(...frameMarks(run, detailed.length === 1 ? colors.lost : colorOf(run),
     (row) => run.frames.computation_ms[row] ?? 0)));
   return {data: traces, layout: layout(colors, {height: 380,
     xaxis: axis(colors, "frame of the sequence", {zeroline: false}),
@@ -205,10 +237,10 @@ function errorChart(colors) {
   const line = (run, values, name, color, dash) => traces.push({
     type: "scatter", mode: "lines", name, connectgaps: true, x: run.frames.index, y: values, line: {width: 1.6, color, dash},
     hovertemplate: `frame %{x}<br>%{y:.3f} mm<extra>${name}</extra>`});
-  detailed.forEach((run, i) => {
+  detailed.forEach((run) => {
     if (!hasErrors(run)) return;
     if (detailed.length > 1) {
-      line(run, run.frames.error_se3_mm, label(run.name), runColor(i));
+      line(run, run.frames.error_se3_mm, label(nameOf(run)), colorOf(run));
     } else {
       line(run, run.frames.error_se3_mm, "after SE(3) alignment", okabeIto[0]);
       line(run, run.frames.error_first_pose_mm, "first poses made equal", okabeIto[1], "dot");
@@ -223,8 +255,8 @@ function errorChart(colors) {
 function paths(colors) {
   const list = [], trueOnes = [];
   const truths = new Set();
-  detailed.forEach((run, i) => {
-    list.push({name: label(run.name), path: run.paths.estimate, color: runColor(i), dash: "solid", width: 2.2});
+  detailed.forEach((run) => {
+    list.push({name: label(nameOf(run)), path: run.paths.estimate, color: colorOf(run), dash: "solid", width: 2.2});
     const sequence = run.record.sequence.name ?? "";
     if (!run.paths.truth || truths.has(sequence)) return;
     truths.add(sequence);
@@ -261,8 +293,8 @@ function pathFromAbove(colors) {
 }
 
 /** Energy of a frame by rail; rails that hold others are beside them, not added to them. */
-function energyChart(colors) {
-  const shown = runs.filter((run) => run.record.energy);
+function energyChart(colors, among) {
+  const shown = among.filter((run) => run.record.energy);
   const rails = [...new Set(shown.flatMap((run) => Object.keys(run.record.energy.rails)))];
   const rows = [...rails, "total"];
   const of = (run, row) => (row === "total" ? run.record.energy.total : run.record.energy.rails[row]);
@@ -272,8 +304,8 @@ function energyChart(colors) {
       row === "total" ? "energy.total.joules_per_frame" : `energy.rails.${row}.joules_per_frame`));
     const distance = (side) => ranges.map((range, i) =>
       (range && values[i] ? Math.abs(range[side] - values[i].joules_per_frame) : null));
-    return {type: "bar", orientation: "h", name: label(run.name), y: rows.map(plain), x: values.map((v) => v?.joules_per_frame ?? null),
-      marker: {color: runColor(runs.indexOf(run))},
+    return {type: "bar", orientation: "h", name: label(nameOf(run)), y: rows.map(plain), x: values.map((v) => v?.joules_per_frame ?? null),
+      marker: {color: colorOf(run)},
       error_x: ranges.some((range) => range)
         ? {type: "data", symmetric: false, array: distance("high"), arrayminus: distance("low"), color: colors.ink, thickness: 1.4}
         : undefined,
@@ -286,7 +318,70 @@ function energyChart(colors) {
     yaxis: axis(colors, "", {autorange: "reversed", showgrid: false, tickfont: {color: colors.ink}})})};
 }
 
-const errorPlace = "accuracy.over_processed.ate_m.se3.rmse";
+/** Rails that add up to the total, of any of the runs. */
+const wholeRails = (shown) => [...new Set(shown.flatMap((run) =>
+  Object.entries(run.record.energy?.rails ?? {}).filter(([, rail]) => rail.in_total).map(([name]) => name)))];
+
+/** Several runs: the energy of a frame as bars of its rails on top of each other; sum and time at their end. */
+function energyStack(colors, among) {
+  const shown = among.filter((run) => run.record.energy?.total);
+  const traces = wholeRails(shown).map((rail, k) => ({
+    type: "bar", orientation: "h", name: plain(rail), y: shown.map((_, i) => i),
+    x: shown.map((run) => run.record.energy.rails[rail]?.joules_per_frame ?? null),
+    marker: {color: okabeIto[k % okabeIto.length], line: {color: colors.page, width: 1}},
+    customdata: shown.map((run) => [plain(run.name), text(run.record.energy.rails[rail]?.mean_w ?? 0)]),
+    hovertemplate: `<b>${plain(rail)}</b>, %{customdata[0]}<br>%{x:.4f} J a frame, %{customdata[1]} W on average<extra></extra>`}));
+  const totals = shown.map((run) => run.record.energy.total.joules_per_frame);
+  const ranges = shown.map((run) => interval(run.record, "energy.total.joules_per_frame"));
+  const repeated = shown.map((_, i) => i).filter((i) => ranges[i]);
+  if (repeated.length) {
+    traces.push({type: "scatter", mode: "markers", name: "95 % interval", x: repeated.map((i) => totals[i]), y: repeated,
+      marker: {color: colors.ink, size: 1}, hovertemplate: "%{x:.4f} J a frame<extra></extra>",
+      error_x: {type: "data", symmetric: false, color: colors.ink, thickness: 1.5, width: 5,
+                array: repeated.map((i) => ranges[i].high - totals[i]), arrayminus: repeated.map((i) => totals[i] - ranges[i].low)}});
+  }
+  const ends = shown.map((_, i) => Math.max(totals[i], ranges[i]?.high ?? 0));
+  const annotations = shown.map((run, i) => ({
+    x: ends[i], y: i, xanchor: "left", xshift: 8, showarrow: false, font: {color: colors.ink, size: 13},
+    text: `<b>${text(totals[i])}</b> J` + (run.record.time.computation_s ? `, ${text(run.record.time.computation_s.mean * 1e3)} ms` : "")}));
+  const room = sequences.length > 1 ? 1.75 : 1.3;
+  return {data: traces, layout: layout(colors, {barmode: "stack", bargap: 0.32, height: barHeight(shown.length, 42), annotations, showlegend: true,
+    xaxis: axis(colors, "energy of a frame, J", {range: [0, Math.max(...ends) * room]}), yaxis: runAxis(colors, shown)})};
+}
+
+/** Rails whose power the detailed runs have. */
+const sampledRails = () => [...new Set(detailed.flatMap((run) => run.power.map((series) => series.rail)))];
+
+/** Lines over the time of the run: of one run all rails, of several one rail; x and y by `values` of a series, means as steps. */
+function overTime(colors, title, rail, steps, values) {
+  const rails = sampledRails();
+  const traces = detailed.flatMap((run) => run.power.filter((series) => !rail || series.rail === rail).map((series) => {
+    const one = detailed.length === 1;
+    const name = one ? plain(series.rail) : label(nameOf(run));
+    return {type: "scatter", mode: "lines", name, ...values(series),
+      line: {width: 1.5, color: one ? okabeIto[rails.indexOf(series.rail) % okabeIto.length] : colorOf(run), shape: series.mean && steps ? "vh" : "linear"},
+      hovertemplate: `%{x:.2f} s<br><b>%{y:.3f}</b><extra>${name}</extra>`};
+  }));
+  return {data: traces, layout: layout(colors, {height: 340, showlegend: true,
+    xaxis: axis(colors, "time since the first frame, s", {rangemode: "tozero"}), yaxis: axis(colors, title, {rangemode: "tozero"})})};
+}
+
+/** A mean holds since the reading before. */
+const powerChart = (colors, rail) => overTime(colors, "power, W", rail, true, (series) => (series.mean
+  ? {x: [0, ...series.time_s], y: [series.power_w[0], ...series.power_w]}
+  : {x: series.time_s, y: series.power_w}));
+
+/** The powers added up. */
+const energySoFarChart = (colors, rail) => overTime(colors, "energy so far, J", rail, false, ({time_s: t, power_w: w, mean}) => {
+  const sums = [0];
+  for (let i = 0; i < t.length; ++i) {
+    const step = t[i] - (i ? t[i - 1] : 0);
+    sums.push(sums[i] + step * (mean || i === 0 ? w[i] : (w[i] + w[i - 1]) / 2));
+  }
+  return {x: [0, ...t], y: sums};
+});
+
+const errorPlace = atePlace;
 const timePlace = "time.computation_s.mean";
 
 /** Runs that can stand in the chart of speed against accuracy. */
@@ -321,7 +416,7 @@ function tradeOffChart(colors) {
     text: points.map(({run}) => label(run.name)), textposition: "top right", cliponaxis: false, textfont: {size: 11, color: colors.soft},
     marker: {size: 13, line: {width: 1.2, color: colors.page},
       symbol: points.map(({i}) => symbols[inputOf(i) % symbols.length]),
-      color: measured ? energy.map((joules) => joules ?? -1) : points.map(({i}) => runColor(i)),
+      color: measured ? energy.map((joules) => joules ?? -1) : points.map(({run}) => colorOf(run)),
       ...(measured ? {colorscale: "Cividis", showscale: true, cmin: 0, cmax: Math.max(...energy),
         colorbar: {title: {text: "J a frame"}, thickness: 12, outlinewidth: 0, tickfont: {color: colors.soft}}} : {})},
     customdata: points.map(({run}, k) => [plain(run.name), plain(describe(run.record)), energy[k] === null ? "energy not measured" : `${text(energy[k])} J a frame`]),

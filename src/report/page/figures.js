@@ -5,6 +5,18 @@
 const data = JSON.parse(document.getElementById("data").textContent);
 const runs = data.runs;
 const detailed = runs.filter((run) => run.frames);
+const sequences = [...new Set(runs.map((run) => run.sequence))];
+const variants = [...new Set(runs.map((run) => run.variant))];
+
+/** Runs on the same sequence, for a part of the page; there the variant tells them apart. */
+const ofSequence = (sequence) => runs.filter((run) => run.sequence === sequence);
+const nameOf = (run) => (sequences.length > 1 ? run.variant : run.name);
+
+/** Equal for equal variants where there are several sequences. */
+const colorOf = (run) => runColor(sequences.length > 1 ? variants.indexOf(run.variant) : runs.indexOf(run));
+
+/** Runs that an entry stands for. */
+const repeats = (run) => run.record.repetition?.runs ?? 1;
 
 /** An element with properties and children; strings become text. */
 function element(tag, properties = {}, ...children) {
@@ -79,6 +91,12 @@ function intervalText(record, figure) {
   return range ? `95 % [${text(range.low)}, ${text(range.high)}] over ${range.runs} runs` : "";
 }
 
+/** What a cell has below its figure; nothing where all runs agree. */
+function rangeNode(range) {
+  if (!range || text(range.low) === text(range.high)) return null;
+  return element("span", {class: "range"}, `${text(range.low)} – ${text(range.high)}`);
+}
+
 function describe(record) {
   const p = record.provenance, size = record.sequence.computation_size;
   const parts = [record.sequence.name, p.backend, record.memory.map,
@@ -103,7 +121,7 @@ function table(head, rows) {
   const cell = (tag, content) => {
     if (content instanceof Node || typeof content !== "object") return element(tag, {}, content);
     const {text: words, nodes = [], ...attributes} = content;
-    return element(tag, attributes, words ?? "", ...nodes);
+    return element(tag, attributes, ...(words === undefined ? [] : [words]), ...nodes);
   };
   return element("div", {class: "scroll"}, element("table", {},
     element("thead", {}, element("tr", {}, ...head.map((content) => cell("th", content)))),
@@ -111,33 +129,54 @@ function table(head, rows) {
       cell("th", first), ...rest.map((content) => cell("td", content)))))));
 }
 
-function runName(run, i) {
+function runName(run, what) {
   return {class: "name", title: run.folder, nodes: [
-    element("span", {class: "swatch", style: {background: runColor(i)}}), run.name]};
+    element("span", {class: "swatch", style: {background: colorOf(run)}}), run.name,
+    typeof what === "string" ? element("span", {class: "range"}, what) : null]};
 }
 
-/** Whether all runs were given the same frames, so that one can be called the best. */
-const sameInput = () => new Set(runs.map((run) => run.record.sequence.input_hash)).size === 1;
+/** The best value of a figure among the runs that were given the same frames as this one. */
+function bestOf(figure, run) {
+  const values = runs.filter((other) => other.record.sequence.input_hash === run.record.sequence.input_hash)
+    .map((other) => at(other.record, figure.place)).filter((v) => v !== undefined);
+  return figure.best && values.length > 1 ? figure.best(...values) : undefined;
+}
 
-/** A row a run, the best of each figure bold where that can be said. */
+/** A row a run, the best of each figure bold. */
 function comparisonTable() {
   const shown = figures.filter((figure) => runs.some((run) => at(run.record, figure.place) !== undefined));
-  const best = shown.map((figure) => {
-    const values = runs.map((run) => at(run.record, figure.place)).filter((v) => v !== undefined);
-    return figure.best && sameInput() && values.length > 1 ? figure.best(...values) : undefined;
-  });
-  const head = ["Run", "What", ...shown.map((figure) => ({class: "number", nodes: [figure.label,
+  const head = ["Run", ...shown.map((figure) => ({class: "number", nodes: [figure.label,
     element("span", {class: "unit"}, figure.unit)]}))];
-  return table(head, runs.map((run, i) => [runName(run, i), {class: "long", text: describe(run.record)},
-    ...shown.map((figure, k) => {
+  return table(head, runs.map((run, i) => [runName(run, describe(run.record)),
+    ...shown.map((figure) => {
       const value = at(run.record, figure.place);
       if (value === undefined) return {class: "number", text: "–", title: reason(run.record, figure.place)};
       const range = interval(run.record, figure.place, figure.factor);
-      return {class: value === best[k] ? "number best" : "number", title: figure.note(run.record),
+      return {class: value === bestOf(figure, run) ? "number best" : "number", title: figure.note(run.record),
               "data-run": i, "data-place": figure.place, "data-value": value,
               nodes: [valueText(figure, value),
-                      range && element("span", {class: "range"}, `${text(range.low)} – ${text(range.high)}`)]};
+                      rangeNode(range)]};
     })]));
+}
+
+const atePlace = "accuracy.over_processed.ate_m.se3.rmse";
+
+/** The paper's table: a row a sequence, a column a variant; in each cell the error, mm. */
+function accuracyTable() {
+  const cell = (sequence, variant) => {
+    const run = runs.find((r) => r.sequence === sequence && r.variant === variant);
+    if (!run) return {class: "number", text: "", title: "no such run"};
+    const error = at(run.record, atePlace), published = run.record.accuracy.slambench1_ate_m;
+    if (error === undefined) return {class: "number", text: "–", title: reason(run.record, atePlace)};
+    const range = interval(run.record, atePlace, 1e3);
+    return {class: "number", nodes: [
+      element("span", {"data-place": atePlace, "data-value": error}, text(error * 1e3)),
+      rangeNode(range),
+      published ? element("span", {class: "range"}, `${text(published.mean * 1e3)}, max ${text(published.max * 1e3)}`)
+                : element("span", {class: "range", title: reason(run.record, "accuracy.slambench1_ate_m")}, "–")]};
+  };
+  return table(["Sequence", ...variants.map((variant) => ({class: "number column", text: variant}))],
+    sequences.map((sequence) => [{class: "name", text: sequence}, ...variants.map((variant) => cell(sequence, variant))]));
 }
 
 /** What a reader must know before believing a run. */
@@ -210,7 +249,7 @@ function facts() {
 
 function factTable(rows) {
   const one = runs.length === 1;
-  return table([one ? "" : "", "", ...(one ? ["Value", "Set by"] : runs.map((run, i) => runName(run, i)))],
+  return table([one ? "" : "", "", ...(one ? ["Value", "Set by"] : runs.map((run) => runName(run)))],
     rows.map((row) => [{text: row.name}, {text: row.group, style: ""},
       ...(one ? [{class: "long", text: row.values[0]}, row.set[0]]
               : row.values.map((value, i) => ({class: "long", text: value || "–", title: row.set[i]})))]));

@@ -10,6 +10,16 @@ function chart(id, build, words) {
   return place;
 }
 
+/** The chart, or one for each of several sequences; `among` tells which runs it has. */
+function panels(id, build, words, has) {
+  if (sequences.length === 1) return [chart(id, (colors) => build(colors, runs), words)];
+  const shown = sequences.filter((sequence) => ofSequence(sequence).some(has));
+  const long = variants.some((variant) => variant.length > 18);
+  return [element("div", {class: long ? "panels wide" : "panels"}, ...shown.map((sequence, k) => element("div", {class: "panel"},
+    element("h3", {}, sequence),
+    chart(`${id}-${k + 1}`, (colors) => build(colors, ofSequence(sequence)), `${words}, ${sequence}`))))];
+}
+
 const caption = (words) => element("p", {class: "caption"}, words);
 const absent = (words) => element("p", {class: "absent"}, words);
 
@@ -17,7 +27,10 @@ const absent = (words) => element("p", {class: "absent"}, words);
 function detailNote() {
   const {detailed_runs: shown, frame_step: step} = data.limits;
   const notes = [];
-  if (shown < runs.length) notes.push(`Shown are the first ${shown} of ${runs.length} runs.`);
+  if (shown < runs.length) {
+    notes.push(sequences.length > 1 ? `Shown are ${shown} of ${runs.length} runs, those on ${detailed[0].sequence}.`
+                                    : `Shown are the first ${shown} of ${runs.length} runs.`);
+  }
   if (step > 1) notes.push(`Lines have every ${step}th frame, so that the file stays small.`);
   return notes.length ? caption(notes.join(" ")) : null;
 }
@@ -25,26 +38,41 @@ function detailNote() {
 function overview() {
   const one = runs.length === 1;
   return [one ? element("div", {class: "cards"}, ...figures.map((figure) => card(runs[0].record, figure))) : comparisonTable(),
-          one ? null : caption((sameInput() ? "Bold: the best of each figure." : "No best is marked, because the runs are not of the same frames.") +
-                               " A dash: not measured; hover for the reason."),
+          one ? null : caption("Bold: the best of each figure among runs of the same frames. A dash: not measured; hover for the reason." +
+                               (runs.some((run) => repeats(run) > 1) ? " Of repeated runs the one of median time is shown, and below a figure the 95 % interval of the median over all." : "")),
           ...warnings()];
+}
+
+function accuracy() {
+  if (runs.length < 2) return null;
+  if (!runs.some((run) => at(run.record, atePlace) !== undefined)) return [absentNote("No trajectory was judged", atePlace)];
+  const published = runs.some((run) => run.record.accuracy.slambench1_ate_m);
+  return [caption("Absolute trajectory error, mm: RMSE after SE(3) alignment" +
+                  (published ? "; below it the figure that SLAMBench 1 published, mean and largest (the paper's table has the largest, in cm)." : ".") +
+                  " A dash: not measured; hover for the reason."),
+          accuracyTable()];
 }
 
 function stages() {
   if (!runs.some((run) => run.record.time.stages)) return [absentNote("No stage times", "time.stages")];
   const missing = runs.some((run) => !run.record.time.stages) ? absentNote("Not shown", "time.stages") : null;
   return [caption("Mean time of a processed frame by stage; reading and drawing are not part of it. FPS is 1 / mean time."),
-          chart("chart-stages", stageChart, "Stage times of each run with frames per second"), missing];
+          ...panels("chart-stages", stageChart, "Stage times of each run with frames per second", (run) => run.record.time.stages), missing];
 }
 
 function kernels() {
   const shown = runs.filter((run) => run.record.time.kernels);
   if (!shown.length) return [absentNote("No kernel times", "time.kernels")];
-  return shown.length <= 4
-    ? [caption("Mean time of each kernel a frame, all its calls together, with its share of computation, in the order of the pipeline."),
-       chart("chart-kernels", kernelBars, "Time of each kernel")]
-    : [caption("Share of each kernel in the computation of a run, per cent. A dash: the run did not call that kernel."),
-       chart("chart-kernels", kernelMap, "Share of each kernel in each run")];
+  const has = (run) => run.record.time.kernels;
+  if (shown.length <= 4 && sequences.length === 1) {
+    return [caption("Mean time of each kernel a frame, all its calls together, with its share of computation, in the order of the pipeline."),
+            ...panels("chart-kernels", kernelBars, "Time of each kernel", has)];
+  }
+  const shares = [caption("Share of each kernel in the computation of a run. Kernels of one stage have shades of one colour."),
+                  ...panels("chart-kernels", kernelShares, "Share of each kernel in each run", has)];
+  return sequences.length > 1 ? shares
+    : [...shares, caption("The same in numbers, per cent. A dash: the run did not call that kernel."),
+       chart("chart-kernel-map", (colors) => kernelMap(colors, runs), "Share of each kernel in each run, in numbers")];
 }
 
 function alongTheSequence() {
@@ -93,10 +121,28 @@ function energy() {
     {class: "name", text: run.name}, name, {class: "long", text: rail.sensor ?? ""}, number(rail.joules_per_frame), number(rail.mean_w), number(rail.peak_w),
     number(rail.idle_w), number(rail.joules), number(rail.energy_delay_js)]));
   const head = (words, unit) => ({class: "number", nodes: [words, element("span", {class: "unit"}, unit)]});
-  return [caption("Energy of a processed frame by rail. A rail within another is part of it and not added to the total again."),
-          chart("chart-energy", energyChart, "Energy of a frame by rail"),
+  const whole = shown.length > 1 && wholeRails(shown).length > 0;
+  return [caption(whole ? "Energy of a processed frame by the rails that add up to the total, with the mean time of computation."
+                        : "Energy of a processed frame by rail. A rail within another is part of it and not added to the total again."),
+          ...(whole ? panels("chart-energy", energyStack, "Energy of a frame by rail", (run) => run.record.energy?.total)
+                    : panels("chart-energy", energyChart, "Energy of a frame by rail", (run) => run.record.energy)),
+          ...powerOverTime(),
           table(["Run", "Rail", "Sensor", head("a frame", "J"), head("mean", "W"), head("peak", "W"), head("idle", "W"), head("run", "J"), head("energy-delay", "J s")], rows),
           note];
+}
+
+function powerOverTime() {
+  const rails = sampledRails();
+  if (!rails.length) return [];
+  const words = "Power while the frames were processed, as the sensors said";
+  if (detailed.length > 1 && rails.length > 1) {
+    return [caption(`${words}, by rail.`), detailNote(),
+            element("div", {class: "panels"}, ...rails.map((rail, k) => element("div", {class: "panel"}, element("h3", {}, rail),
+              chart(`chart-power-${k + 1}`, (colors) => powerChart(colors, rail), `Power of ${rail} over time`))))];
+  }
+  return [caption(`${words}, and what it adds up to. The energy of the whole run is in the table below.`), detailNote(),
+          element("div", {class: "panels"}, chart("chart-power", powerChart, "Power of each rail over time"),
+                  chart("chart-energy-so-far", energySoFarChart, "Energy of each rail over time"))];
 }
 
 function counters() {
@@ -119,8 +165,8 @@ function tradeOff() {
           left ? absentNote("Not shown", errorPlace) : null];
 }
 
-const kinds = ["colour", "color", "rgb", "depth", "track", "volume"];
-const kindWords = {depth: "depth", track: "tracking", volume: "surface"};
+const kinds = ["color", "depth", "track", "volume"];
+const kindWords = {color: "colour", depth: "depth", track: "tracking", volume: "surface"};
 
 function pictures() {
   const shown = detailed.filter((run) => run.pictures.length);
@@ -163,6 +209,7 @@ function parameters() {
 
 const sections = [
   ["overview", "Overview", overview],
+  ["accuracy", "Accuracy", accuracy],
   ["stages", "Stages", stages],
   ["kernels", "Kernels", kernels],
   ["times", "Along the sequence", alongTheSequence],
@@ -175,11 +222,17 @@ const sections = [
   ["parameters", "Parameters and provenance", parameters],
 ];
 
+/** "36 runs of 12 configurations". */
+function runCount() {
+  const count = runs.reduce((sum, run) => sum + repeats(run), 0);
+  return count > runs.length ? `${count} runs of ${runs.length} configurations` : `${count} runs`;
+}
+
 function build() {
   const first = runs[0].record;
   document.getElementById("subtitle").textContent = runs.length === 1
     ? [runs[0].name, describe(first), first.provenance.device ?? first.provenance.cpu, first.provenance.started_at].filter((part) => part).join(" · ")
-    : `${runs.length} runs on ${[...new Set(runs.map((run) => run.record.provenance.device ?? run.record.provenance.cpu))].join("; ")}`;
+    : `${runCount()} on ${[...new Set(runs.map((run) => run.record.provenance.device ?? run.record.provenance.cpu))].join("; ")}`;
   const main = document.getElementById("sections"), contents = element("ul");
   for (const [id, title, make] of sections) {
     const parts = make();

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include "report/report_entries.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "analysis/figure.h"
+#include "analysis/result_folders.h"
+#include "io/files.h"
+#include "results/repetition.h"
+
+namespace slambench {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using Figures = std::map<std::string, Figure>;
+
+constexpr const char* time_place = "time.computation_s.mean";
+
+/// Runs that repeat each other, in the order in which they were given.
+using Group = std::vector<ReportRun>;
+
+std::vector<Group> groups_of(std::vector<ReportRun> runs, const ParameterRoles& roles,
+                             bool repeats_together) {
+  std::vector<Group> groups;
+  for (ReportRun& run : runs) {
+    const auto same = [&](const Group& group) {
+      const StoredRun& first = group.front().stored;
+      const auto counts = [](const StoredRun& one) { return one.valid() && one.complete(); };
+      return repeats_together && counts(first) && counts(run.stored) &&
+             group.front().variant == run.variant && differences(first, run.stored, roles).empty();
+    };
+    auto it = std::find_if(groups.begin(), groups.end(), same);
+    if (it == groups.end()) it = groups.insert(groups.end(), Group());
+    it->push_back(std::move(run));
+  }
+  return groups;
+}
+
+/// The places of figures that a report shows with an interval, with their units.
+std::map<std::string, std::string> shown_places(const StoredRun& run) {
+  std::map<std::string, std::string> places;
+  for (const NamedFigure& figure : figure_table()) places[figure.place] = figure.unit;
+  constexpr std::string_view head = "energy.rails.", tail = ".joules_per_frame";
+  for (const auto& [place, value] : run.numbers) {
+    if (place.starts_with(head) && place.ends_with(tail)) places.emplace(place, "J");
+  }
+  return places;
+}
+
+/// The figures of every run, repeats within its record included.
+std::vector<Figures> figures_of(const Group& group) {
+  std::vector<Figures> all;
+  const auto places = shown_places(group.front().stored);
+  for (const ReportRun& run : group) {
+    const std::size_t repeats = run.stored.run_count(), first = all.size();
+    all.resize(first + repeats);
+    for (const auto& [place, unit] : places) {
+      const std::vector<double> values = values_of(place, run.stored);
+      for (std::size_t i = 0; i < repeats && values.size() == repeats; ++i) {
+        all[first + i][place] = {unit, values[i], {}};
+      }
+    }
+  }
+  return all;
+}
+
+/// As the record of repeated runs has it.
+Json repetition_json(const Group& group) {
+  const Repetition repetition = repetition_of(figures_of(group));
+  Json figures = Json::object();
+  for (const auto& [place, figure] : repetition.figures) {
+    Json& json = figures[place];
+    json = {{"unit", figure.unit}, {"values", figure.values}, {"median", figure.median}};
+    if (figure.low) json["low"] = *figure.low;
+    if (figure.high) json["high"] = *figure.high;
+    if (figure.run_spread) json["run_spread"] = *figure.run_spread;
+  }
+  return {{"runs", repetition.runs}, {"figures", figures}};
+}
+
+/// The one in the middle, which stands for all.
+ReportRun entry_of(Group group) {
+  if (group.size() == 1) return std::move(group.front());
+  std::vector<Figures> times;
+  for (const ReportRun& run : group) {
+    const auto time_s = value_of(time_place, run.stored);
+    times.push_back(time_s ? Figures{{time_place, {"s", *time_s, {}}}} : Figures());
+  }
+  ReportRun& middle = group[median_run(times, time_place)];
+  middle.record["repetition"] = repetition_json(group);
+  return std::move(middle);
+}
+
+/// The folder that a run's folder lies in.
+fs::path parent_of(const ReportRun& run) {
+  const fs::path whole = fs::absolute(fs::path(run.folder) / "").lexically_normal();
+  return whole.parent_path().parent_path();  // the first is without the slash at the end
+}
+
+/// Where runs of several folders lie: the folder of them all when it holds no other run.
+std::vector<std::string> folders_of(const std::vector<Group>& groups) {
+  std::map<fs::path, std::set<std::size_t>> users;  // of a parent folder
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    for (const ReportRun& run : groups[i]) users[parent_of(run)].insert(i);
+  }
+  std::vector<std::string> folders;
+  for (const Group& group : groups) {
+    const fs::path of_first = parent_of(group.front());
+    const bool together = std::all_of(group.begin(), group.end(), [&](const ReportRun& run) {
+      return parent_of(run) == of_first;
+    });
+    const bool whole = group.size() > 1 && together && users.at(of_first).size() == 1;
+    folders.push_back(whole ? of_first.string() : group.front().folder);
+  }
+  return folders;
+}
+
+/// What a suite says of a configuration.
+struct SuiteEntry {
+  std::string title, sequence, variant;
+  std::size_t order = 0;
+};
+
+std::string text(const Json& json, const char* key) {
+  const auto it = json.find(key);
+  return it != json.end() && it->is_string() ? it->get<std::string>() : "";
+}
+
+/// Nothing for a run that no suite made, or of which it does not say what it is.
+std::optional<SuiteEntry> suite_entry(const ReportRun& run) {
+  const fs::path configuration = parent_of(run);
+  const fs::path file = configuration.parent_path() / "suite.json";
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return std::nullopt;
+  const Json suite = Json::parse(read_file(file), nullptr, false);
+  if (!suite.is_object() || text(suite, "format") != "slambench-suite") return std::nullopt;
+  const Json list = suite.value("configurations", Json());
+  if (!list.is_array()) return std::nullopt;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!list[i].is_object() || text(list[i], "folder") != configuration.filename()) continue;
+    SuiteEntry entry{text(suite, "title"), text(list[i], "sequence"), text(list[i], "variant"), i};
+    if (!entry.sequence.empty() && !entry.variant.empty()) return entry;
+  }
+  return std::nullopt;
+}
+
+/// What `key` of a difference is in a run: the value of a parameter, or of the build.
+std::string value_of_key(const StoredRun& run, const std::string& key) {
+  const std::string tail = fmt::format(".{}.value", key);
+  for (const auto& [place, value] : run.texts) {
+    if (place.starts_with("parameters.") && place.ends_with(tail)) return value;
+  }
+  return run.text(fmt::format("provenance.{}", key));
+}
+
+/// Keys of what differs between runs of one sequence, beside the backend and what follows from it.
+std::vector<std::string> varied_keys(const std::vector<ReportRun>& runs,
+                                     const ParameterRoles& roles) {
+  const std::set<std::string> said = {"backend", "preset", "version", "driver", "device"};
+  constexpr std::size_t most = 4;
+  std::vector<std::string> keys;
+  for (const ReportRun& run : runs) {
+    const auto first = std::find_if(runs.begin(), runs.end(), [&](const ReportRun& other) {
+      return other.sequence == run.sequence;
+    });
+    for (const RunDifference& d : differences(first->stored, run.stored, roles)) {
+      const bool known = std::find(keys.begin(), keys.end(), d.key) != keys.end();
+      if (known || said.contains(d.key) || d.key.starts_with("sequence.")) continue;
+      if (keys.size() < most) keys.push_back(d.key);
+    }
+  }
+  return keys;
+}
+
+void name_variants(std::vector<ReportRun>* runs, const ParameterRoles& roles) {
+  const std::vector<std::string> keys = varied_keys(*runs, roles);
+  for (ReportRun& run : *runs) {
+    for (const std::string& key : keys) {
+      const std::string value = value_of_key(run.stored, key);
+      const std::size_t most = key == "commit" ? 8 : 24;
+      if (!value.empty()) run.variant += fmt::format(", {} {}", key, value.substr(0, most));
+    }
+  }
+}
+
+/// No two runs of a sequence have the same variant afterwards, unless they have the same name.
+void make_variants_unique(std::vector<ReportRun>* runs) {
+  std::map<std::pair<std::string, std::string>, int> count;
+  for (const ReportRun& run : *runs) ++count[{run.sequence, run.variant}];
+  for (ReportRun& run : *runs) {
+    const bool unique = count.at({run.sequence, run.variant}) == 1;
+    if (!unique) run.variant += fmt::format(" ({})", run.name);
+  }
+}
+
+/// As the suite of all runs names and orders them; false when there is none.
+bool follow_suite(ReportEntries* entries) {
+  std::vector<std::pair<std::size_t, ReportRun>> ordered;
+  std::vector<SuiteEntry> said;
+  for (const ReportRun& run : entries->runs) {
+    auto entry = suite_entry(run);
+    if (!entry) return false;
+    said.push_back(std::move(*entry));
+  }
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    ReportRun& run = entries->runs[i];
+    run.sequence = said[i].sequence;
+    run.variant = said[i].variant;
+    run.name = fmt::format("{}, {}", run.sequence, run.variant);
+    ordered.emplace_back(said[i].order, std::move(run));
+  }
+  std::stable_sort(ordered.begin(), ordered.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  entries->title = said.front().title;
+  for (std::size_t i = 0; i < ordered.size(); ++i) {
+    if (said[i].title != entries->title) entries->title.clear();
+    entries->runs[i] = std::move(ordered[i].second);
+  }
+  return true;
+}
+
+}  // namespace
+
+ReportEntries report_entries(std::vector<ReportRun> runs, const ParameterRoles& roles,
+                             bool repeats_together) {
+  std::vector<Group> groups = groups_of(std::move(runs), roles, repeats_together);
+  const std::vector<std::string> names = short_names(folders_of(groups));
+  ReportEntries entries;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    entries.runs.push_back(entry_of(std::move(groups[i])));
+    entries.runs.back().name = names[i];
+  }
+  if (!entries.runs.empty() && !follow_suite(&entries)) name_variants(&entries.runs, roles);
+  make_variants_unique(&entries.runs);
+  return entries;
+}
+
+}  // namespace slambench
