@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -102,6 +103,8 @@ class Backend {
   virtual std::string driver() const { return ""; }
   /// Threads of the host that kernels run on; 0 on a device of its own.
   virtual int threads() const { return 0; }
+  /// Processors of the host that kernels keep busy, the caller's included.
+  virtual int busy_processors() const { return std::max(1, threads()); }
   /// Memory that this instance holds now on a device with memory of its own; none on the host.
   virtual std::optional<std::size_t> device_bytes() const { return std::nullopt; }
   /// An honest answer: whether the kernel is implemented for this map.

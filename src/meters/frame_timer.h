@@ -24,6 +24,7 @@ struct FrameTimes {
   std::array<int, kernel_count> kernel_calls{};
   /// By direction. They are within the stages' times, and in no sum.
   std::array<TransferTimes, transfer_count> transfers{};
+  double read_s = 0;  ///< reading the frame, on whichever thread; within `acquire` unless ahead
 
   double stage(Stage s) const { return stage_s[static_cast<std::size_t>(s)]; }
   /// preprocess + track + integrate + raycast, as SLAMBench defines it.

@@ -2,27 +2,14 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #include "meters/sampling_thread.h"
 
-#include <pthread.h>
-#include <signal.h>
-
 #include <chrono>
+
+#include "core/quiet_thread.h"
 
 namespace slambench {
 
-SamplingThread::SamplingThread(Sampler& sampler) : sampler_(sampler) {
-  // Signals are for the thread that waits for them.
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  const auto restore = [&] { pthread_sigmask(SIG_SETMASK, &before, nullptr); };
-  try {
-    thread_ = std::thread([this] { run(); });
-  } catch (...) {
-    restore();
-    throw;
-  }
-  restore();
-}
+SamplingThread::SamplingThread(Sampler& sampler)
+    : sampler_(sampler), thread_(quiet_thread([this] { run(); })) {}
 
 SamplingThread::~SamplingThread() { stop(); }
 

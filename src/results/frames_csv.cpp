@@ -79,6 +79,7 @@ void add_header(std::size_t levels, Rows* rows) {
   rows->add("start_s");
   rows->add("computation_s");
   rows->add("total_s");
+  rows->add("read_s");
   for (std::size_t i = 0; i < stage_count; ++i) {
     const auto stage = static_cast<Stage>(i);
     if (within_frames(stage)) rows->add(fmt::format("stage_{}_s", name(stage)));
@@ -129,6 +130,7 @@ void add_times(const FrameRecord& frame, Rows* rows) {
   rows->add(frame.start_s);
   rows->add(times.computation_s());
   rows->add(times.total_s());
+  rows->add(times.read_s);
   for (std::size_t i = 0; i < stage_count; ++i) {
     if (!within_frames(static_cast<Stage>(i))) continue;
     times.stage_calls[i] > 0 ? rows->add(times.stage_s[i]) : rows->add_empty(1);
@@ -153,7 +155,7 @@ void add_times(const FrameRecord& frame, Rows* rows) {
 std::size_t time_column_count() {
   std::size_t kernels = 0;
   for (const KernelInfo& kernel : kernel_table()) kernels += within_frames(kernel.stage) ? 1 : 0;
-  return 3 + (stage_count - 1) + 2 * kernels + 3 * transfer_count;
+  return 4 + (stage_count - 1) + 2 * kernels + 3 * transfer_count;
 }
 
 }  // namespace

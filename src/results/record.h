@@ -29,7 +29,7 @@ struct FrameRecord {
   int index = 0;
   double time_s = 0;     ///< the sequence's time stamp
   bool dropped = false;  ///< real-time mode: never processed; all below is empty then
-  double start_s = 0;    ///< when it began to be read, since the first frame did
+  double start_s = 0;    ///< when it began to be acquired, since the first did
   bool tracked = false;
   bool integrated = false;
   Pose T_start_camera = Pose::Identity();  ///< estimate in y-down axes, start camera = identity
@@ -106,10 +106,11 @@ struct Record {
 
   // What happened.
   std::vector<FrameRecord> frames;
-  FrameTimes init;        ///< of start-up
-  double wall_s = 0;      ///< of the frame loop
-  int warmup_frames = 0;  ///< first processed frames left out of the time statistics
-  std::string map;        ///< how the map was stored: what `auto` chose
+  FrameTimes init;          ///< of start-up
+  double wall_s = 0;        ///< of the frame loop
+  bool read_ahead = false;  ///< frames were read by a thread while others were processed
+  int warmup_frames = 0;    ///< first processed frames left out of the time statistics
+  std::string map;          ///< how the map was stored: what `auto` chose
   std::size_t map_bytes = 0;
   bool complete = true;  ///< false: interrupted
   std::string incomplete_reason;

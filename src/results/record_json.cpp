@@ -150,6 +150,7 @@ Json transfers_json(const std::vector<TransferFigures>& transfers) {
 void put_measured(const TimeFigures& figures, Json* json, Reasons* absent) {
   (*json)["computation_s"] = json_of_times(figures.computation_s);
   (*json)["total_s"] = json_of_times(figures.total_s);
+  (*json)["read_s"] = json_of_times(figures.read_s);
   Json stages = Json::object(), kernels = Json::object();
   for (const StageFigures& stage : figures.stages) {
     Json one = json_of(stage.seconds);
@@ -189,11 +190,12 @@ Json time_json(const Record& r, Reasons* absent) {
   } else {
     explain(absent, "time.fps_wall", "the frame loop took no measurable time");
   }
+  json["read_ahead"] = r.read_ahead;
   json["start_up"] = start_up_json(r.init);
   if (figures.measured_frames > 0) {
     put_measured(figures, &json, absent);
   } else {
-    for (const char* key : {"computation_s", "total_s", "stages", "kernels"}) {
+    for (const char* key : {"computation_s", "total_s", "read_s", "stages", "kernels"}) {
       explain(absent, fmt::format("time.{}", key), "no frame was processed after the warm-up");
     }
   }

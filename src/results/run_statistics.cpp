@@ -132,6 +132,7 @@ TimeFigures time_figures(const Record& record) {
 
   figures.computation_s = over(measured, [](const FrameTimes& t) { return t.computation_s(); });
   figures.total_s = over(measured, [](const FrameTimes& t) { return t.total_s(); });
+  figures.read_s = over(measured, [](const FrameTimes& t) { return t.read_s; });
   if (figures.computation_s.mean > 0) figures.fps_computation = 1 / figures.computation_s.mean;
   for (std::size_t i = 0; i < stage_count; ++i) {
     const auto stage = static_cast<Stage>(i);

@@ -127,6 +127,11 @@ void tell_speed(const Record& r, const TimeFigures& figures, Page* page) {
     rates.push_back(fmt::format("{:.2f} frames/s of all {:.1f} s", *figures.fps_wall, r.wall_s));
   }
   if (!rates.empty()) page->wrapped("speed", fmt::format("{}", fmt::join(rates, ", ")), Look::good);
+  if (r.read_ahead && figures.measured_frames > 0) {
+    page->wrapped("reading", fmt::format("{:.3f} ms a frame, ahead of time on a thread of its own: "
+                                         "acquire is what the run waited for it",
+                                         figures.read_s.mean * ms_per_s));
+  }
   std::string measured = fmt::format("{} frames", figures.measured_frames);
   if (!figures.warmup.empty()) {
     measured += fmt::format("; left out as warm-up: {}", frame_list_text(figures.warmup));

@@ -11,8 +11,10 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/processors.h"
 #include "io/trajectory_file.h"
 #include "metrics/trajectory_metrics.h"
+#include "runner/frame_reader.h"
 #include "runner/input_hash.h"
 
 namespace slambench {
@@ -93,12 +95,15 @@ std::optional<double> rate(const SequenceInfo& info, const RunParameters& parame
   return info.fps;
 }
 
-FrameRecord process(int index, Source& source, System& system, FrameTimer& timer, Frame& frame) {
-  {
-    const StageScope stage(&timer, Stage::acquire);
-    const KernelScope kernel(&timer, Kernel::acquire);
-    source.read(index, frame);
-  }
+void acquire(int index, FrameReader& reader, FrameTimer& timer, ReadFrame* frame) {
+  const StageScope stage(&timer, Stage::acquire);
+  const KernelScope kernel(&timer, Kernel::acquire);
+  reader.finish(index, frame);
+}
+
+FrameRecord process(int index, const ReadFrame& read, System& system, FrameTimer& timer) {
+  if (read.error) std::rethrow_exception(read.error);
+  const Frame& frame = read.frame;
   FrameResult result = system.process(frame);
   system.render();
 
@@ -113,6 +118,7 @@ FrameRecord process(int index, Source& source, System& system, FrameTimer& timer
   record.inlier_fraction = result.inlier_fraction;
   record.residual_m = result.residual_m;
   record.times = timer.take();
+  record.times.read_s = read.read_s;
   return record;
 }
 
@@ -153,32 +159,46 @@ std::ptrdiff_t processed_frames(const Record& record) {
 
 ParameterList RunParameters::describe() {
   constexpr double most = std::numeric_limits<int>::max();
-  return {"run",
-          {{"frames", 0, "frames", &frames, 0, most, "at most so many first frames; 0: all"},
-           {"real-time", 0, "", &real_time, 0, 0,
-            "feed frames at the sequence's own rate and drop those that come too late"},
-           {"fps", 'f', "frames/s", &fps, 0, 1e6,
-            "feed frames at this rate and drop those that come too late; 0: process every frame"},
-           {"warmup-frames", 0, "frames", &warmup_frames, 0, most,
-            "first processed frames that the time statistics leave out"},
-           {"repeat",
-            0,
-            "runs",
-            &repeat,
-            1,
-            1000,
-            "measure so many runs, and give each figure's median with a 95 % confidence interval",
-            {},
-            ParameterRole::bookkeeping},
-           {"warmup",
-            0,
-            "runs",
-            &warmup,
-            0,
-            1000,
-            "run so often before that without measuring",
-            {},
-            ParameterRole::bookkeeping}}};
+  return {
+    "run",
+        {{"frames", 0, "frames", &frames, 0, most, "at most so many first frames; 0: all"},
+         {"real-time", 0, "", &real_time, 0, 0,
+          "feed frames at the sequence's own rate and drop those that come too late"},
+         {"fps", 'f', "frames/s", &fps, 0, 1e6,
+          "feed frames at this rate and drop those that come too late; 0: process every frame"},
+         {"warmup-frames", 0, "frames", &warmup_frames, 0, most,
+          "first processed frames that the time statistics leave out"},
+         {"repeat",
+          0,
+          "runs",
+          &repeat,
+          1,
+          1000,
+          "measure so many runs, and give each figure's median with a 95 % confidence interval",
+          {},
+          ParameterRole::bookkeeping},
+         {"warmup",
+          0,
+          "runs",
+          &warmup,
+          0,
+          1000,
+          "run so often before that without measuring",
+          {},
+          ParameterRole::bookkeeping}},
+    {
+      "prefetch", 0, "", &prefetch, 0, 0,
+          "read the next frame on a thread of its own while one is processed; auto: where the "
+          "kernels leave a processor over. Never in real time",
+          {"auto", "on", "off"}, ParameterRole::implementation
+    }
+  }
+};
+}
+
+bool reads_ahead(const RunParameters& parameters, int busy_processors, int usable_processors) {
+  if (parameters.real_time || parameters.fps > 0 || parameters.prefetch == "off") return false;
+  return parameters.prefetch == "on" || busy_processors < usable_processors;
 }
 
 void check_ground_truth(Source& source, const RunParameters& parameters) {
@@ -206,20 +226,37 @@ void run_frames(Source& source, System& system, FrameTimer& timer, const Clock& 
   record->init = timer.take();
   InputHash hash;
   LiveError live_error(info.ground_truth);
-  Frame frame;
+  const bool ahead = reads_ahead(parameters, system.busy_processors(), usable_processors());
+  FrameReader reader(source, clock, ahead);
+  record->read_ahead = reader.ahead();
+  if (ahead && !reader.ahead() && parameters.prefetch == "on") {
+    throw UnavailableError("--prefetch on: the system grants no thread to read frames on");
+  }
+  ReadFrame frame, next;
+  bool acquired = false;  // `next` is the frame to process
 
   if (hooks.begin) hooks.begin();
   RunTime time(clock);
   const double first_s = clock.now_s();
+  double next_start_s = 0;
+  const auto acquire_next = [&](int index) {
+    next_start_s = clock.now_s() - first_s;
+    acquire(index, reader, timer, &next);
+  };
   int index = 0;
   while (index < total && !stopped(hooks)) {
     if (fps && !wait_until(index / *fps, time, hooks)) break;
-    const double start_s = clock.now_s() - first_s;
-    record->frames.push_back(process(index, source, system, timer, frame));
+    if (!acquired) acquire_next(index);
+    std::swap(frame, next);
+    const double start_s = next_start_s;
+    acquired = reader.ahead() && index + 1 < total;
+    if (acquired) reader.begin(index + 1);
+    record->frames.push_back(process(index, frame, system, timer));
     record->frames.back().start_s = start_s;
+    if (acquired) acquire_next(index + 1);
     time.hold_during([&] {
       FrameRecord& done = record->frames.back();
-      hash.add(frame);
+      hash.add(frame.frame);
       done.error_first_pose_m =
           live_error.of({done.time_s, in_own_axes(*record, done.T_start_camera)});
       if (hooks.images) hooks.images(done, system);

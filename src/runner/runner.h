@@ -23,12 +23,17 @@ struct RunParameters {
                            ///< would leave none
   int repeat = 1;          ///< runs that are measured
   int warmup = 0;          ///< runs before them that are not
+  std::string prefetch = "auto";  ///< whether frames are read ahead on a thread: also "on", "off"
 
   ParameterList describe();
 };
 
 /// How many of the sequence's frames the parameters ask for.
 int frames_to_run(const SequenceInfo& info, const RunParameters& parameters);
+
+/// Whether frames are read ahead: as asked for, but not in real time; `auto` is where computing
+/// leaves a processor over, as a thread that takes turns with it would slow it down.
+bool reads_ahead(const RunParameters& parameters, int busy_processors, int usable_processors);
 
 /// What a run tells while it goes on.
 struct Progress {
@@ -51,12 +56,15 @@ void check_ground_truth(Source& source, const RunParameters& parameters);
 /// `frames`, `init`, `wall_s`, `input_hash`, `map_bytes`, `complete`, `incomplete_reason` and
 /// `warmup_frames`. The timer must be the system's observer; what it saw before is start-up.
 ///
+/// The next frame may be read while one is processed (RunParameters::prefetch). The loop then waits
+/// for it before hashing and hooks, whose time is nobody's: reading gets none of it for free.
+///
 /// Every frame in order; or in real time: the frame that is due is floor(elapsed * fps), the ones
 /// before it that were not processed are dropped and recorded as such, and where none is due yet
-/// the run waits. Only acquiring, processing and rendering make time pass in this sense: waiting,
-/// hashing and the hooks are in no stage, and hashing and the hooks are neither in `wall_s` nor do
-/// they make frames late. Throws UsageError when real time is asked for and no rate is known, and
-/// what the source and the system throw.
+/// the run waits; no frame is read before it is due. Only acquiring, processing and rendering make
+/// time pass in this sense: waiting, hashing and the hooks are in no stage, and hashing and the
+/// hooks are neither in `wall_s` nor do they make frames late. Throws UsageError when real time is
+/// asked for and no rate is known, and what the source and the system throw.
 void run_frames(Source& source, System& system, FrameTimer& timer, const Clock& clock,
                 const RunParameters& parameters, const RunHooks& hooks, Record* record);
 

@@ -65,6 +65,7 @@ class KinectFusion final : public System {
   void render() override;
   Pictures pictures() override;
   std::string map() const override { return std::string(name(volume_.map)); }
+  int busy_processors() const override { return backend_.busy_processors(); }
   std::size_t map_bytes() const override;
   void dump_volume(const std::string& path) override;
 

@@ -40,6 +40,8 @@ class System {
   virtual Pictures pictures() = 0;
   /// How the map is stored, as on the command line.
   virtual std::string map() const = 0;
+  /// Processors of this machine that process() keeps busy, its caller's included.
+  virtual int busy_processors() const = 0;
   /// Memory of the map now.
   virtual std::size_t map_bytes() const = 0;
   /// Writes the map as raw 16-bit distances, x fastest, then y, then z.

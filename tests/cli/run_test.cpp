@@ -312,6 +312,8 @@ TEST_F(RunTest, RefusedThreadsAreUnavailable) {
   expect_error(
       small({"--backend", "openmp", "--threads", "8"}), 4,
       AllOf(HasSubstr("threads: the system grants "), HasSubstr(" of 8"), HasSubstr("--threads")));
+  expect_error(small({"--backend", "openmp", "--threads", "1", "--prefetch", "on"}), 4,
+               HasSubstr("--prefetch on: the system grants no thread"));
   EXPECT_EQ(run(small({"--backend", "openmp", "--threads", "1"})).status, 0);
 }
 

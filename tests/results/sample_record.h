@@ -24,6 +24,7 @@ inline FrameTimes sample_times(double scale) {
   seconds(times, Stage::integrate) = scale / 8;
   seconds(times, Stage::raycast) = scale / 4;
   seconds(times, Stage::render) = scale / 2;
+  times.read_s = scale / 128;
   called(times, Kernel::acquire, scale / 64, 1);
   called(times, Kernel::mm2meters, scale / 32, 1);
   called(times, Kernel::track, scale / 16, 4);

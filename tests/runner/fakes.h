@@ -70,6 +70,7 @@ class FakeSystem final : public System {
   }
   Pictures pictures() override { return {}; }
   std::string map() const override { return "grid"; }
+  int busy_processors() const override { return 1; }
   std::size_t map_bytes() const override { return 1234; }
   void dump_volume(const std::string&) override {}
 

@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <limits>
+#include <thread>
 
 #include "core/error.h"
 #include "io/trajectory_file.h"
@@ -43,8 +45,15 @@ class RunnerTest : public ::testing::Test {
   testing::FakeClock clock_;
   FrameTimer timer_{clock_};
   testing::FakeSystem system_{clock_, &timer_};
-  RunParameters parameters_;
+  RunParameters parameters_ = one_thread();  // the clock is no other thread's
   RunHooks hooks_;
+
+ private:
+  static RunParameters one_thread() {
+    RunParameters parameters;
+    parameters.prefetch = "off";
+    return parameters;
+  }
 };
 
 TEST_F(RunnerTest, ProcessesEveryFrameInOrder) {
@@ -121,6 +130,116 @@ TEST_F(RunnerTest, AttributesTimeToTheFrameItWasSpentIn) {
   EXPECT_EQ(record.frames[0].start_s, 0);
   EXPECT_DOUBLE_EQ(record.frames[1].start_s, frame_s + 10 + 20) << "but the clock goes on";
   EXPECT_DOUBLE_EQ(record.wall_s, 2 * frame_s) << "hooks do not count";
+}
+
+/// What reading ahead must not change, and what it changes.
+class ReadAheadTest : public ::testing::Test {
+ protected:
+  /// Hands frames out, and waits in `block_at` until the frame before is being processed.
+  class SlowSource final : public Source {
+   public:
+    SlowSource() {
+      info_.frame_count = 6;
+      info_.depth_size = {4, 2};
+    }
+    const SequenceInfo& info() const override { return info_; }
+    void read(int index, Frame& frame) override {
+      if (index == broken) throw InputError("frame " + std::to_string(index));
+      if (index > 0 && wait_for_processing) {
+        while (processing < index) std::this_thread::yield();
+      }
+      on_other_thread += std::this_thread::get_id() == main_thread ? 0 : 1;
+      frame.index = index;
+      frame.depth = Image<std::uint16_t>(info_.depth_size, static_cast<std::uint16_t>(index));
+    }
+    int broken = -1;
+    bool wait_for_processing = false;
+    std::atomic<int> processing = 0;  ///< frames that the system was given
+    std::atomic<int> on_other_thread = 0;
+    const std::thread::id main_thread = std::this_thread::get_id();
+
+   private:
+    SequenceInfo info_;
+  };
+
+  Record run(const std::string& prefetch) {
+    testing::FakeSystem system(fake_clock_, nullptr);
+    system.pose = [&](int i) {
+      source_.processing = i + 1;
+      return testing::pose_at(i, 0, 0);
+    };
+    FrameTimer timer(steady_clock());
+    RunParameters parameters;
+    parameters.prefetch = prefetch;
+    Record record;
+    run_frames(source_, system, timer, steady_clock(), parameters, hooks_, &record);
+    calls_ = system.calls;
+    return record;
+  }
+
+  SlowSource source_;
+  testing::FakeClock fake_clock_;
+  RunHooks hooks_;
+  std::vector<std::string> calls_;
+};
+
+TEST_F(ReadAheadTest, GivesTheSystemTheSameFrames) {
+  const Record plain = run("off");
+  const std::vector<std::string> calls = calls_;
+  EXPECT_FALSE(plain.read_ahead);
+  EXPECT_EQ(source_.on_other_thread, 0);
+  const Record ahead = run("on");
+  EXPECT_TRUE(ahead.read_ahead);
+  EXPECT_EQ(source_.on_other_thread, 5) << "nothing is ahead of the first";
+  EXPECT_EQ(calls_, calls);
+  EXPECT_EQ(ahead.input_hash, plain.input_hash);
+  EXPECT_EQ(ahead.frames.size(), plain.frames.size());
+  for (const FrameRecord& frame : ahead.frames) {
+    EXPECT_EQ(frame.times.stage_calls[static_cast<std::size_t>(Stage::acquire)], 1);
+    EXPECT_GT(frame.times.read_s, 0);
+  }
+}
+
+TEST_F(ReadAheadTest, ReadsWhileTheFrameBeforeIsProcessed) {
+  source_.wait_for_processing = true;  // would never end if frames were read one after the other
+  EXPECT_EQ(run("on").frames.size(), 6u);
+}
+
+TEST_F(ReadAheadTest, TellsOfAnErrorWhenItIsThatFramesTurn) {
+  source_.broken = 3;
+  for (const std::string prefetch : {"on", "off"}) {
+    std::vector<int> done;
+    hooks_.progress = [&](const Progress& p) { done.push_back(p.frame->index); };
+    EXPECT_THROW(run(prefetch), InputError);
+    EXPECT_THAT(done, ElementsAre(0, 1, 2)) << prefetch;
+  }
+}
+
+TEST_F(ReadAheadTest, ARunThatIsStoppedDoesNotMindTheNextFrame) {
+  source_.broken = 3;
+  std::atomic<bool> stop = false;
+  hooks_.stop = &stop;
+  hooks_.progress = [&](const Progress& p) { stop = p.done == 3; };
+  const Record record = run("on");
+  EXPECT_EQ(record.frames.size(), 3u);
+  EXPECT_EQ(record.incomplete_reason, "interrupted after 3 of 6 frames");
+}
+
+TEST(ReadsAhead, WhereAProcessorIsLeftAndNotInRealTime) {
+  RunParameters parameters;
+  EXPECT_TRUE(reads_ahead(parameters, 1, 2));
+  EXPECT_FALSE(reads_ahead(parameters, 2, 2));
+  EXPECT_FALSE(reads_ahead(parameters, 1, 1));
+  parameters.prefetch = "on";
+  EXPECT_TRUE(reads_ahead(parameters, 2, 2));
+  parameters.fps = 30;
+  EXPECT_FALSE(reads_ahead(parameters, 1, 2)) << "no frame is read before it is due";
+  parameters.fps = 0;
+  parameters.real_time = true;
+  EXPECT_FALSE(reads_ahead(parameters, 1, 2));
+  parameters = {};
+  parameters.prefetch = "off";
+  EXPECT_FALSE(reads_ahead(parameters, 1, 2));
 }
 
 TEST_F(RunnerTest, TellsProgressAfterTheImages) {

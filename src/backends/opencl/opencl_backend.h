@@ -25,6 +25,12 @@ class OpenclBackend final : public Backend {
     return queue_.device().platform + " " + queue_.device().driver;
   }
   std::optional<std::size_t> device_bytes() const override;
+  int busy_processors() const override {
+    const OpenclDevice& device = queue_.device();
+    return device.is_processor
+               ? static_cast<int>(device.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>())
+               : 1;
+  }
   bool supports(Kernel kernel, MapKind map) const override;
   bool times_itself() const override { return true; }
   void finish() override { queue_.finish(observer()); }
