@@ -31,6 +31,17 @@ Matrix6 normal_matrix(const Reduction& reduction) {
   return m;
 }
 
+bool same_ray(const Rigid3f& a, const Rigid3f& b) {
+  return a.row0 == b.row0 && a.row1 == b.row1 && a.row2 == b.row2 && a.translation == b.translation;
+}
+
+/// Whether rays of both march through the same samples, up to where the nearer ends.
+bool same_march(const RaycastParameters& a, const RaycastParameters& b) {
+  return same_ray(a.T_volume_camera, b.T_volume_camera) && a.camera == b.camera &&
+         a.near_m == b.near_m && a.large_step_m == b.large_step_m &&
+         a.small_step_m == b.small_step_m && a.slow_below == b.slow_below;
+}
+
 }  // namespace
 
 std::span<const MapInfo> map_table() {
@@ -221,8 +232,20 @@ void Backend::render_track(DeviceImage<Rgba8>& image, const DeviceImage<TrackDat
 }
 
 void Backend::render_volume(DeviceImage<Rgba8>& image, const Volume& volume,
-                            const RaycastParameters& view, const ShadeParameters& shading) {
+                            const RaycastParameters& view, const ShadeParameters& shading,
+                            const SeenSurface* seen) {
   const KernelScope scope(launch_observer(), Kernel::render_volume);
+  if (seen != nullptr && seen->vertices->size == image.size && same_march(seen->view, view) &&
+      seen->view.far_m <= view.far_m) {
+    do_render_seen(image, volume, view, shading, *seen);
+  } else {
+    do_render_volume(image, volume, view, shading);
+  }
+}
+
+void Backend::do_render_seen(DeviceImage<Rgba8>& image, const Volume& volume,
+                             const RaycastParameters& view, const ShadeParameters& shading,
+                             const SeenSurface&) {
   do_render_volume(image, volume, view, shading);
 }
 

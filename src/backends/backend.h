@@ -79,6 +79,13 @@ struct AlignResult {
   std::vector<int> iterations;  ///< done, per level
 };
 
+/// What raycast has found of a volume as it is now, for render_volume to draw from.
+struct SeenSurface {
+  const DeviceImage<Float3>* vertices = nullptr;
+  const DeviceImage<Float3>* normals = nullptr;
+  RaycastParameters view;
+};
+
 /// In the precision of the kernels.
 Rigid3f to_rigid3f(const Pose& pose);
 /// exp(twist) * pose: a step of the ICP.
@@ -173,8 +180,9 @@ class Backend {
   void render_depth(DeviceImage<Rgba8>& image, const DeviceImage<float>& depth_m, float near_m,
                     float far_m);
   void render_track(DeviceImage<Rgba8>& image, const DeviceImage<TrackData>& rows);
+  /// Casts the view's rays; a backend that can need not repeat those of `seen`, if that is given.
   void render_volume(DeviceImage<Rgba8>& image, const Volume& volume, const RaycastParameters& view,
-                     const ShadeParameters& shading);
+                     const ShadeParameters& shading, const SeenSurface* seen = nullptr);
   /// The ICP loop, coarse to fine. Unless a backend does better and may: track, reduce and solve.
   AlignResult align(const AlignInput& input, double condition);
 
@@ -212,6 +220,10 @@ class Backend {
   virtual void do_render_track(DeviceImage<Rgba8>& image, const DeviceImage<TrackData>& rows) = 0;
   virtual void do_render_volume(DeviceImage<Rgba8>& image, const Volume& volume,
                                 const RaycastParameters& view, const ShadeParameters& shading) = 0;
+  /// The same from rays that are those of the view, but may end before.
+  virtual void do_render_seen(DeviceImage<Rgba8>& image, const Volume& volume,
+                              const RaycastParameters& view, const ShadeParameters& shading,
+                              const SeenSurface& seen);
   /// In double precision on the host, unless a backend has a reason.
   virtual Twist do_solve(const Reduction& reduction, double condition);
   /// The plain loop over track, reduce and solve; reports those, not `align`.

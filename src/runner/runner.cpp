@@ -159,41 +159,42 @@ std::ptrdiff_t processed_frames(const Record& record) {
 
 ParameterList RunParameters::describe() {
   constexpr double most = std::numeric_limits<int>::max();
-  return {
-    "run",
-        {{"frames", 0, "frames", &frames, 0, most, "at most so many first frames; 0: all"},
-         {"real-time", 0, "", &real_time, 0, 0,
-          "feed frames at the sequence's own rate and drop those that come too late"},
-         {"fps", 'f', "frames/s", &fps, 0, 1e6,
-          "feed frames at this rate and drop those that come too late; 0: process every frame"},
-         {"warmup-frames", 0, "frames", &warmup_frames, 0, most,
-          "first processed frames that the time statistics leave out"},
-         {"repeat",
-          0,
-          "runs",
-          &repeat,
-          1,
-          1000,
-          "measure so many runs, and give each figure's median with a 95 % confidence interval",
-          {},
-          ParameterRole::bookkeeping},
-         {"warmup",
-          0,
-          "runs",
-          &warmup,
-          0,
-          1000,
-          "run so often before that without measuring",
-          {},
-          ParameterRole::bookkeeping}},
-    {
-      "prefetch", 0, "", &prefetch, 0, 0,
-          "read the next frame on a thread of its own while one is processed; auto: where the "
-          "kernels leave a processor over. Never in real time",
-          {"auto", "on", "off"}, ParameterRole::implementation
-    }
-  }
-};
+  return {"run",
+          {{"frames", 0, "frames", &frames, 0, most, "at most so many first frames; 0: all"},
+           {"real-time", 0, "", &real_time, 0, 0,
+            "feed frames at the sequence's own rate and drop those that come too late"},
+           {"fps", 'f', "frames/s", &fps, 0, 1e6,
+            "feed frames at this rate and drop those that come too late; 0: process every frame"},
+           {"warmup-frames", 0, "frames", &warmup_frames, 0, most,
+            "first processed frames that the time statistics leave out"},
+           {"repeat",
+            0,
+            "runs",
+            &repeat,
+            1,
+            1000,
+            "measure so many runs, and give each figure's median with a 95 % confidence interval",
+            {},
+            ParameterRole::bookkeeping},
+           {"warmup",
+            0,
+            "runs",
+            &warmup,
+            0,
+            1000,
+            "run so often before that without measuring",
+            {},
+            ParameterRole::bookkeeping},
+           {"prefetch",
+            0,
+            "",
+            &prefetch,
+            0,
+            0,
+            "read the next frame on a thread of its own while one is processed; auto: where the "
+            "kernels leave a processor over. Never in real time",
+            {"auto", "on", "off"},
+            ParameterRole::implementation}}};
 }
 
 bool reads_ahead(const RunParameters& parameters, int busy_processors, int usable_processors) {

@@ -220,8 +220,9 @@ void KinectFusion::render() {
                         static_cast<float>(p_.far_m));
   backend_.render_track(track_picture_, rows_[0]);
   if ((processed_ - 1) % p_.rendering_rate == 0) {
+    const SeenSurface seen{&model_vertices_, &model_normals_, view(p_.far_m)};
     backend_.render_volume(volume_picture_, volume_, view(p_.far_m * p_.render_far_factor),
-                           shading());
+                           shading(), p_.fused && T_volume_model_ ? &seen : nullptr);
   }
   backend_.finish();
 }

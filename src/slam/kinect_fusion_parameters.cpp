@@ -81,7 +81,8 @@ ParameterList KinectFusionParameters::describe() {
            &fused,
            0,
            0,
-           "kernels run fused where the backend has them so",
+           "kernels share work where the backend can: the alignment runs as one, and the volume is "
+           "drawn from the raycast of the same view instead of casting its rays again",
            {},
            ParameterRole::implementation},
       },

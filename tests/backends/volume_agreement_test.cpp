@@ -285,43 +285,56 @@ TEST(Bricks, TakeLessMemoryThanTheGrid) {
   EXPECT_LT(backend.volume_bytes(bricks), backend.volume_bytes(grid) / 2);
 }
 
-Image<Rgba8> rendered(Backend& backend, const Volume& volume, const RaycastParameters& view) {
+Image<Rgba8> rendered(Backend& backend, const Volume& volume, const RaycastParameters& view,
+                      const RaycastParameters* seen_view = nullptr) {
   auto picture = backend.make_image<Rgba8>(size);
-  backend.render_volume(picture, volume, view, {{1, 1, -1}, 0.1f});
+  auto vertices = backend.make_image<Float3>(size), normals = backend.make_image<Float3>(size);
+  SeenSurface seen{&vertices, &normals, {}};
+  if (seen_view != nullptr) {
+    backend.raycast(vertices, normals, volume, *seen_view);
+    seen.view = *seen_view;
+  }
+  backend.render_volume(picture, volume, view, {{1, 1, -1}, 0.1f},
+                        seen_view != nullptr ? &seen : nullptr);
   return downloaded(backend, picture);
 }
 
-/// render_volume draws from the last raycast where it may: never from an outdated one.
+/// render_volume may draw from a raycast: never from one that is not of the view.
 TEST(RenderVolume, EqualsTheReferenceWhateverWasSeenBefore) {
   const Fusion fusion;
   SerialBackend serial;
   OpenmpBackend openmp(2);
   for (const MapKind map : {MapKind::grid, MapKind::bricks}) {
-    Volume expected_volume = fused(serial, map, fusion), volume = fused(openmp, map, fusion);
+    const Volume expected_volume = fused(serial, map, fusion), volume = fused(openmp, map, fusion);
     auto near_view = ray_parameters(fusion.size_m, fusion.resolution, 4);
-    auto far_view = near_view;
+    auto far_view = near_view, other_view = near_view;
     near_view.far_m = 1.2f;
-    const auto expect_equal = [&](const RaycastParameters& view, const char* when) {
-      EXPECT_EQ(rendered(openmp, volume, view), rendered(serial, expected_volume, view)) << when;
-    };
-    expect_equal(far_view, "at first");
-    raycast(openmp, volume, near_view);
-    expect_equal(far_view, "seen less far");
-    expect_equal(near_view, "seen farther");
-    raycast(openmp, volume, far_view);
-    expect_equal(far_view, "seen");
-    for (auto* of : {&expected_volume, &volume}) {
-      Backend& backend = of == &volume ? static_cast<Backend&>(openmp) : serial;
-      backend.integrate(*of, uploaded(backend, depth_at(9)),
-                        {to_rigid3f(view_at(7).inverse()), camera, 0.1f, 100, 0.0001f});
-    }
-    expect_equal(far_view, "after a change");
-    auto other_view = far_view;
     other_view.T_volume_camera = to_rigid3f(view_at(2));
-    expect_equal(other_view, "from elsewhere");
-    openmp.init_volume(volume);
-    serial.init_volume(expected_volume);
-    expect_equal(other_view, "emptied");
+    for (const auto& view : {near_view, far_view, other_view}) {
+      const Image<Rgba8> expected = rendered(serial, expected_volume, view);
+      EXPECT_EQ(rendered(openmp, volume, view), expected);
+      for (const auto& seen : {near_view, far_view, other_view}) {
+        EXPECT_EQ(rendered(openmp, volume, view, &seen), expected);
+      }
+    }
+  }
+}
+
+/// What was seen is drawn as it is, and only what was not is looked for.
+TEST(RenderVolume, DrawsWhatWasSeenOnOpenmp) {
+  const Fusion fusion;
+  OpenmpBackend openmp(2);
+  const Volume volume = fused(openmp, MapKind::bricks, fusion);
+  const auto view = ray_parameters(fusion.size_m, fusion.resolution, 4);
+  const Image<Float3> vertices(size, {1, 1, 1}), normals(size, {0, 0, -1});
+  const auto seen_vertices = uploaded(openmp, vertices), seen_normals = uploaded(openmp, normals);
+  auto picture = openmp.make_image<Rgba8>(size);
+  auto farther = view;
+  farther.far_m *= 2;
+  const SeenSurface seen{&seen_vertices, &seen_normals, view};
+  for (const auto& drawn : {view, farther}) {
+    openmp.render_volume(picture, volume, drawn, {{1, 1, 0}, 0}, &seen);
+    EXPECT_THAT(downloaded(openmp, picture), ::testing::Each(Rgba8{255, 255, 255, 255}));
   }
 }
 

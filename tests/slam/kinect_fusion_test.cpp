@@ -313,6 +313,26 @@ TEST_F(Pipeline, TracksEveryRatesFrame) {
   }
 }
 
+TEST_F(Pipeline, DrawsTheVolumeFromTheRaycastOnlyWhenKernelsMayShareWork) {
+  p_.rendering_rate = 1;
+  p_.bootstrap_frames = 2;
+  for (const bool fused : {false, true}) {
+    p_.fused = fused;
+    KinectFusion fusion = make();
+    for (int i = 0; i < 3; ++i) {
+      process(fusion);
+      fusion.render();
+    }
+    if (!fused) {
+      EXPECT_TRUE(backend_.seen.empty());
+    }
+  }
+  ASSERT_EQ(backend_.seen.size(), 2u) << "there is no raycast of the first frame";
+  EXPECT_EQ(backend_.seen.back().view.T_volume_camera.translation,
+            backend_.raycasted->T_volume_camera.translation);
+  EXPECT_EQ(backend_.seen.back().view.far_m, backend_.raycasted->far_m);
+}
+
 TEST_F(Pipeline, DrawsTheVolumeEveryRatesFrame) {
   for (const auto& [rate, expected] : std::vector<std::pair<int, std::string>>{
            {1, "111111111"}, {2, "101010101"}, {4, "100010001"}}) {

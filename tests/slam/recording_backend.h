@@ -37,6 +37,7 @@ class RecordingBackend final : public HostBackend {
   Volume made;  ///< resolution and size only
   std::optional<IntegrateParameters> integrated;
   std::optional<RaycastParameters> raycasted, rendered;
+  std::vector<SeenSurface> seen;  ///< what volumes were drawn from
   ShadeParameters shading;
   float render_near_m = 0, render_far_m = 0;
   int raycasts = 0, integrations = 0, volume_pictures = 0;
@@ -98,6 +99,12 @@ class RecordingBackend final : public HostBackend {
     ++volume_pictures;
     rendered = view;
     shading = shade_parameters;
+  }
+  void do_render_seen(DeviceImage<Rgba8>& image, const Volume& volume,
+                      const RaycastParameters& view, const ShadeParameters& shade_parameters,
+                      const SeenSurface& surface) override {
+    seen.push_back(surface);
+    do_render_volume(image, volume, view, shade_parameters);
   }
   AlignResult do_align(const AlignInput& input, double solve_condition) override {
     align_input = input;

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "backends/host/versioned_storage.h"
+#include "backends/backend.h"
 
 namespace slambench {
 
@@ -50,7 +50,7 @@ class PlanePool {
 /// A row of distances is followed by the first value of the same row in the next brick along x, so
 /// that any two neighbours along x lie side by side in one plane. A brick of +1 before one that is
 /// not therefore has a plane too.
-class BrickVolume final : public VersionedStorage {
+class BrickVolume final : public Storage {
  public:
   static constexpr int edge = 8;
   static constexpr int voxels = edge * edge * edge;

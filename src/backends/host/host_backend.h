@@ -6,13 +6,12 @@
 
 #include "backends/backend.h"
 #include "backends/host/brick_volume.h"
-#include "backends/host/versioned_storage.h"
 #include "kernels/volume_maths.h"
 
 namespace slambench {
 
 /// Zeroed memory of the host, aligned for any SIMD type.
-class HostStorage final : public VersionedStorage {
+class HostStorage final : public Storage {
  public:
   /// Throws UnavailableError when the machine has less than that available.
   explicit HostStorage(std::size_t bytes);
@@ -53,20 +52,11 @@ class HostBackend : public Backend {
     return static_cast<const T*>(static_cast<const HostStorage&>(*image.storage).data());
   }
   static Voxel* voxels(Volume& volume) {
-    auto& storage = static_cast<HostStorage&>(*volume.storage);
-    storage.changed();
-    return static_cast<Voxel*>(storage.data());
+    return static_cast<Voxel*>(static_cast<HostStorage&>(*volume.storage).data());
   }
-  static BrickVolume& bricks(Volume& volume) {
-    auto& storage = static_cast<BrickVolume&>(*volume.storage);
-    storage.changed();
-    return storage;
-  }
+  static BrickVolume& bricks(Volume& volume) { return static_cast<BrickVolume&>(*volume.storage); }
   static const BrickVolume& bricks(const Volume& volume) {
     return static_cast<const BrickVolume&>(*volume.storage);
-  }
-  static std::uint64_t version(const Volume& volume) {
-    return static_cast<const VersionedStorage&>(*volume.storage).version();
   }
   static BrickView brick_view(const Volume& volume) {
     return {&bricks(volume), volume.resolution, volume.size_m};

@@ -15,17 +15,6 @@ constexpr int image_rows = 8;      // of a chunk
 constexpr int volume_rows = 64;    // of a chunk of the flat volume
 constexpr int bricks_at_once = 8;  // of a chunk of bricks
 
-bool same_ray(const Rigid3f& a, const Rigid3f& b) {
-  return a.row0 == b.row0 && a.row1 == b.row1 && a.row2 == b.row2 && a.translation == b.translation;
-}
-
-/// Whether rays of both march through the same samples, up to where the nearer ends.
-bool same_march(const RaycastParameters& a, const RaycastParameters& b) {
-  return same_ray(a.T_volume_camera, b.T_volume_camera) && a.camera == b.camera &&
-         a.near_m == b.near_m && a.large_step_m == b.large_step_m &&
-         a.small_step_m == b.small_step_m && a.slow_below == b.slow_below;
-}
-
 }  // namespace
 
 bool OpenmpBackend::supports(Kernel kernel, MapKind map) const {
@@ -47,12 +36,6 @@ Reduction OpenmpBackend::sum_bands(Size size, const F& f) {
   Reduction sum;
   for (const Reduction& band : bands_) add(band, &sum);
   return sum;
-}
-
-std::unique_ptr<Storage> OpenmpBackend::allocate_volume(MapKind map, Int3 resolution,
-                                                        Float3 size_m) {
-  view_.volume = nullptr;  // its volume may be gone and the new one take its address
-  return HostBackend::allocate_volume(map, resolution, size_m);
 }
 
 void OpenmpBackend::do_generate_gaussian(DeviceImage<float>& weights, float sigma_px) {
@@ -224,36 +207,6 @@ void OpenmpBackend::march(RaycastOutput output, const Volume& volume,
 void OpenmpBackend::do_raycast(DeviceImage<Float3>& vertices, DeviceImage<Float3>& normals,
                                const Volume& volume, const RaycastParameters& parameters) {
   march({pixels(vertices), pixels(normals), vertices.size}, volume, parameters);
-  if (!renders_) return;
-  const Size size = vertices.size;
-  view_.vertices.resize(size.count());
-  view_.normals.resize(size.count());
-  for_rows(size.height, [&](Rows rows) {
-    const auto begin = static_cast<std::size_t>(rows.begin) * static_cast<std::size_t>(size.width);
-    const auto end = static_cast<std::size_t>(rows.end) * static_cast<std::size_t>(size.width);
-    std::copy(pixels(vertices) + begin, pixels(vertices) + end, view_.vertices.data() + begin);
-    std::copy(pixels(normals) + begin, pixels(normals) + end, view_.normals.data() + begin);
-  });
-  hold(volume, parameters, size);
-}
-
-void OpenmpBackend::hold(const Volume& volume, const RaycastParameters& parameters, Size size) {
-  view_.volume = volume.storage.get();
-  view_.version = version(volume);
-  view_.parameters = parameters;
-  view_.size = size;
-}
-
-void OpenmpBackend::see(const Volume& volume, const RaycastParameters& view, Size size) {
-  const bool held = view_.volume == volume.storage.get() && view_.version == version(volume) &&
-                    view_.size == size && same_march(view_.parameters, view) &&
-                    view_.parameters.far_m <= view.far_m;
-  if (held && view_.parameters.far_m == view.far_m) return;
-  view_.vertices.resize(size.count());
-  view_.normals.resize(size.count());
-  // A ray that met a surface meets the same one when it may go farther.
-  march({view_.vertices.data(), view_.normals.data(), size, held}, volume, view);
-  hold(volume, view, size);
 }
 
 void OpenmpBackend::do_render_depth(DeviceImage<Rgba8>& image, const DeviceImage<float>& depth_m,
@@ -271,11 +224,39 @@ void OpenmpBackend::do_render_track(DeviceImage<Rgba8>& image, const DeviceImage
 void OpenmpBackend::do_render_volume(DeviceImage<Rgba8>& image, const Volume& volume,
                                      const RaycastParameters& view,
                                      const ShadeParameters& shading) {
-  renders_ = true;
-  see(volume, view, image.size);
+  march(scratch_surface(image.size), volume, view);
+  shade(image, shading, seen_vertices_.data(), seen_normals_.data());
+}
+
+void OpenmpBackend::do_render_seen(DeviceImage<Rgba8>& image, const Volume& volume,
+                                   const RaycastParameters& view, const ShadeParameters& shading,
+                                   const SeenSurface& seen) {
+  const Float3* vertices = pixels(*seen.vertices);
+  const Float3* normals = pixels(*seen.normals);
+  if (seen.view.far_m == view.far_m) return shade(image, shading, vertices, normals);
+  RaycastOutput surface = scratch_surface(image.size);
   for_rows(image.size.height, [&](Rows rows) {
-    shade_rows(pixels(image), view_.vertices.data(), view_.normals.data(), image.size, shading,
-               rows);
+    const auto width = static_cast<std::size_t>(image.size.width);
+    const auto begin = static_cast<std::size_t>(rows.begin) * width;
+    const auto end = static_cast<std::size_t>(rows.end) * width;
+    std::copy(vertices + begin, vertices + end, surface.vertices + begin);
+    std::copy(normals + begin, normals + end, surface.normals + begin);
+  });
+  surface.only_misses = true;  // a ray that met a surface meets the same one when it may go farther
+  march(surface, volume, view);
+  shade(image, shading, surface.vertices, surface.normals);
+}
+
+RaycastOutput OpenmpBackend::scratch_surface(Size size) {
+  seen_vertices_.resize(size.count());
+  seen_normals_.resize(size.count());
+  return {seen_vertices_.data(), seen_normals_.data(), size};
+}
+
+void OpenmpBackend::shade(DeviceImage<Rgba8>& image, const ShadeParameters& shading,
+                          const Float3* vertices, const Float3* normals) const {
+  for_rows(image.size.height, [&](Rows rows) {
+    shade_rows(pixels(image), vertices, normals, image.size, shading, rows);
   });
 }
 

@@ -29,7 +29,6 @@ class OpenmpBackend final : public HostBackend {
   bool supports(Kernel kernel, MapKind map) const override;
 
  protected:
-  std::unique_ptr<Storage> allocate_volume(MapKind map, Int3 resolution, Float3 size_m) override;
   void do_generate_gaussian(DeviceImage<float>& weights, float sigma_px) override;
   void do_init_volume(Volume& volume) override;
   void do_mm2meters(DeviceImage<float>& depth_m, const DeviceImage<std::uint16_t>& depth,
@@ -57,18 +56,11 @@ class OpenmpBackend final : public HostBackend {
   void do_render_track(DeviceImage<Rgba8>& image, const DeviceImage<TrackData>& rows) override;
   void do_render_volume(DeviceImage<Rgba8>& image, const Volume& volume,
                         const RaycastParameters& view, const ShadeParameters& shading) override;
+  void do_render_seen(DeviceImage<Rgba8>& image, const Volume& volume,
+                      const RaycastParameters& view, const ShadeParameters& shading,
+                      const SeenSurface& seen) override;
 
  private:
-  /// The surface seen from one view: render_volume draws from the last one, and lets rays march
-  /// that it does not hold.
-  struct View {
-    const Storage* volume = nullptr;  ///< null: nothing is held
-    std::uint64_t version = 0;        ///< of the volume
-    RaycastParameters parameters;
-    Size size;
-    std::vector<Float3> vertices, normals;
-  };
-
   /// f(rows) over all rows of an image in parallel.
   template <class F>
   void for_rows(int height, const F& f) const;
@@ -80,10 +72,10 @@ class OpenmpBackend final : public HostBackend {
   void integrate_bricks(BrickVolume& volume, const IntegrateInput& input);
   /// raycast in parallel.
   void march(RaycastOutput output, const Volume& volume, const RaycastParameters& parameters);
-  /// Says what `view_` holds now.
-  void hold(const Volume& volume, const RaycastParameters& parameters, Size size);
-  /// Makes `view_` this view.
-  void see(const Volume& volume, const RaycastParameters& view, Size size);
+  /// Images of its own for march().
+  RaycastOutput scratch_surface(Size size);
+  void shade(DeviceImage<Rgba8>& image, const ShadeParameters& shading, const Float3* vertices,
+             const Float3* normals) const;
 
   Parallel parallel_;
   std::vector<ModelPoint> model_;                  ///< of the alignment in progress
@@ -91,9 +83,8 @@ class OpenmpBackend final : public HostBackend {
   DepthPyramid depth_;                             ///< of the integration in progress
   std::vector<std::vector<std::int32_t>> varied_;  ///< bricks to look at, per slice of bricks
   std::vector<std::int32_t> all_varied_;
-  StartDepths start_;  ///< of the raycast in progress
-  View view_;
-  bool renders_ = false;  ///< render_volume has been asked for: views are worth keeping
+  StartDepths start_;                                 ///< of the raycast in progress
+  std::vector<Float3> seen_vertices_, seen_normals_;  ///< of the render_volume in progress
 };
 
 }  // namespace slambench
