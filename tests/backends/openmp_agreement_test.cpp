@@ -79,7 +79,7 @@ Image<float> bilateral(Backend& backend, const Image<float>& depth, int radius) 
   return downloaded(backend, out);
 }
 
-// The exponential is good to 2 units in the last place: weights to 3e-7, means to the same part
+// The exponential is good to 4 units in the last place: weights to 3e-7, means to the same part
 // of the window's spread, which is below a metre where weights are not negligible.
 TEST_P(OpenmpSizes, BilateralFilterAgrees) {
   for (const int radius : {0, 1, 2, 5}) {

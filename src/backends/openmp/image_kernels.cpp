@@ -67,7 +67,7 @@ HWY_INLINE Floats bilateral_lanes(const float* corner, int stride, const float* 
       const Floats weight =
           hn::IfThenElseZero(hn::Gt(neighbour, zero),
                              hn::Mul(set(gaussian[dx] * gaussian[dy]), exp_nonpositive(exponent)));
-      sum = hn::IfThenElse(hn::Gt(neighbour, zero), hn::Add(sum, hn::Mul(weight, neighbour)), sum);
+      sum = hn::IfThenElse(hn::Gt(neighbour, zero), hn::MulAdd(weight, neighbour, sum), sum);
       weights = hn::Add(weights, weight);
     }
   }

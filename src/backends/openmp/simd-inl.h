@@ -2,8 +2,9 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 
 // Shared by the kernels of this folder and compiled once per instruction set: hence a guard that
-// toggles. Every operation is rounded as in the per-element functions of kernels/, in the same
-// order and never fused, so that results do not depend on the number of lanes and equal theirs.
+// toggles. Every operation but the exponential is rounded as in the per-element functions of
+// kernels/, in the same order and never fused, so that results do not depend on the number of lanes
+// and equal theirs.
 
 #if defined(SLAMBENCH_OPENMP_SIMD_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SLAMBENCH_OPENMP_SIMD_INL_H_
@@ -107,17 +108,18 @@ HWY_INLINE FloatMask project(Vec3 point, Intrinsics camera, Size size, float min
   return inside;
 }
 
-/// exp(x) for x <= 0 to 2 units in the last place; 0 below -87 (where the true value is below the
+/// exp(x) for x <= 0 to 4 units in the last place; 0 below -87 (where the true value is below the
 /// smallest normal number), NaN for NaN. 2^n exp(r) with n = round(x / ln 2), |r| <= ln 2 / 2 and
-/// the series of exp to the 7th power.
+/// the polynomial of degree 5 through exp at six Chebyshev nodes. Multiply-adds are fused where the
+/// processor has them.
 HWY_INLINE Floats exp_nonpositive(Floats x) {
   const Floats n = hn::Round(hn::Mul(x, set(1.44269504f)));
   // ln 2 in two parts: the first has few bits, so that n times it is exact.
-  Floats r = hn::Sub(x, hn::Mul(n, set(0.693359375f)));
-  r = hn::Sub(r, hn::Mul(n, set(-2.12194440e-4f)));
-  Floats sum = set(1.0f / 5040);
-  for (const float c : {1.0f / 720, 1.0f / 120, 1.0f / 24, 1.0f / 6, 0.5f, 1.0f, 1.0f}) {
-    sum = hn::Add(hn::Mul(sum, r), set(c));
+  Floats r = hn::NegMulAdd(n, set(0.693359375f), x);
+  r = hn::NegMulAdd(n, set(-2.12194440e-4f), r);
+  Floats sum = set(0.00836922042f);
+  for (const float c : {0.0419180095f, 0.166665047f, 0.499988645f, 1.0f, 1.00000012f}) {
+    sum = hn::MulAdd(sum, r, set(c));
   }
   const FloatMask vanishes = hn::Lt(x, set(-87.0f));
   const Ints exponent = hn::ConvertTo(i32, hn::IfThenZeroElse(vanishes, n));
