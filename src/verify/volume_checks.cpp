@@ -383,6 +383,37 @@ void look_around(Trial& trial, const Run& run, const Compare& compare) {
   }
 }
 
+/// A volume of the paper's size, fused from several places and seen from these and others: what
+/// rays skip there are whole bricks, more than a small volume has between camera and surface.
+template <class Run, class Compare>
+void look_into_large_volume(Trial& trial, const Run& run, const Compare& compare) {
+  if (!trial.candidate_supports(Kernel::integrate)) return;
+  const std::vector<View> views = views_around({320, 240});
+  const SceneCase scene{"", {{256, 256, 256}, {4, 4, 4}}, {}, views};
+  std::vector<LookCase> looks;
+  const auto add = [&](const std::string& name, const Pose& pose) {
+    const Size small{160, 120};
+    looks.push_back({name, small, ray_parameters(scene.shape, small, pose)});
+  };
+  for (const View& view : views) add("as integrated", view.T_volume_camera);
+  add("from between", looking({1.6, 1.9, 1.1}, 0.2, 0.1));
+  add("from outside", looking({2.1, 1.8, -0.3}, 0.05, 0.03));
+  trial.add(
+      "room integrated " + text(scene.shape.resolution),
+      [&](Workbench& bench) {
+        Volume volume = bench.volume(scene.shape.resolution, scene.shape.size_m);
+        fill(bench, scene, &volume);
+        std::vector<decltype(run(bench, volume, looks[0]))> seen;
+        for (const LookCase& look : looks) seen.push_back(run(bench, volume, look));
+        return seen;
+      },
+      [&](const auto& expected, const auto& found) {
+        for (std::size_t i = 0; i < looks.size(); ++i) {
+          compare(trial, expected[i], found[i], looks[i].name);
+        }
+      });
+}
+
 /// Scenes one after the other in one volume: nothing of the first may be left, or remembered, when
 /// the next is looked at from the same place.
 template <class Run>
@@ -469,6 +500,7 @@ void check_integrate(Trial& trial) {
 
 void check_raycast(Trial& trial) {
   look_around(trial, run_raycast, compare_surfaces);
+  look_into_large_volume(trial, run_raycast, compare_surfaces);
   for (const auto& [first, second] : changing_scenes(trial)) {
     const LookCase look = look_from_inside(first.shape);
     trial.add(
