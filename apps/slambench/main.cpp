@@ -16,6 +16,7 @@
 #include "core/logged_error.h"
 #include "help.h"
 #include "results/provenance.h"
+#include "shell_text.h"
 #include "terminal.h"
 #include "wait_policy.h"
 
@@ -28,10 +29,10 @@ struct Command {
   std::function<Action(CLI::App&)> add;
 };
 
-std::vector<Command> command_table(const std::string& command_line) {
+std::vector<Command> command_table(const std::vector<std::string>& words) {
   return {
       {"run", "run KinectFusion over a sequence: times, accuracy, a record",
-       [command_line](CLI::App& app) { return add_run(app, command_line); }},
+       [words](CLI::App& app) { return add_run(app, shell_text(words)); }},
       {"compare", "what differs between runs: ratios of all figures with intervals", add_compare},
       {"evaluate", "compare two trajectories: absolute trajectory and relative pose error",
        add_evaluate},
@@ -41,6 +42,8 @@ std::vector<Command> command_table(const std::string& command_line) {
       {"info", "what a sequence has: frames, camera, axes, ground truth, suggestions", add_info},
       {"list", "what there is: backends, maps, kernels, layouts, presets, parameters", add_list},
       {"report", "make one HTML file of runs: charts, paths, pictures, parameters", add_report},
+      {"suite", "run a matrix of sequences, backends and parameters, in turns",
+       [words](CLI::App& app) { return add_suite(app, words.front()); }},
       {"verify", "whether the backends compute what the reference computes", add_verify},
   };
 }
@@ -49,25 +52,6 @@ constexpr const char* footer =
     "'slambench COMMAND --help' says more about each.\n"
     "Exit status: 0 ok, 1 failed or interrupted, 2 usage, 3 bad input,\n"
     "4 unavailable here, 5 a threshold was violated.";
-
-/// The arguments as one would type them in a shell.
-std::string shell_text(int argc, char** argv) {
-  constexpr const char* plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:@%+";
-  std::string text;
-  for (int i = 0; i < argc; ++i) {
-    const std::string argument = argv[i];
-    if (i > 0) text += ' ';
-    if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos) {
-      text += argument;
-      continue;
-    }
-    text += '\'';
-    for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    text += '\'';
-  }
-  return text;
-}
 
 /// The long options of the command, with their dashes.
 std::vector<std::string> option_words(const CLI::App& command) {
@@ -118,7 +102,7 @@ ExitStatus run(int argc, char** argv) {
   app.footer(footer);
   app.allow_extras();
   app.set_version_flag("--version", version_text(), "print version and commit and end");
-  const std::vector<Command> commands = command_table(shell_text(argc, argv));
+  const std::vector<Command> commands = command_table(std::vector<std::string>(argv, argv + argc));
   std::map<const CLI::App*, Action> actions;
   for (const Command& command : commands) {
     CLI::App* sub = app.add_subcommand(command.name, command.sentence);

@@ -6,6 +6,8 @@
 
 #include "all_parameters.h"
 #include "config/config_file.h"
+#include "meters/clock.h"
+#include "progress.h"
 
 namespace slambench {
 
@@ -25,6 +27,14 @@ std::unique_ptr<Source> open_sequence(const std::string& sequence,
   auto source = open_source(sequence, parameters);
   settings->suggest(source->info().suggested);
   return source;
+}
+
+void prepare_sequence(Source& source, int frames, bool show, const InterruptFlag& interrupt) {
+  ProgressBar bar("rendering", "frames", steady_clock(), show);
+  source.prepare(frames, [&](int done, int total) {
+    bar.show(done, total);
+    return !interrupt.raised().load();
+  });
 }
 
 }  // namespace slambench

@@ -7,6 +7,7 @@
 
 #include "config/settings.h"
 #include "datasets/source.h"
+#include "interrupt.h"
 
 namespace slambench {
 
@@ -16,5 +17,8 @@ namespace slambench {
 /// open_source() do.
 std::unique_ptr<Source> open_sequence(const std::string& sequence,
                                       const SourceParameters& parameters, Settings* settings);
+
+/// Renders what is to be rendered, with a bar when `show`.
+void prepare_sequence(Source& source, int frames, bool show, const InterruptFlag& interrupt);
 
 }  // namespace slambench

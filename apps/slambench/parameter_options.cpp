@@ -111,10 +111,17 @@ void ParameterOptions::add(CLI::App& command, const std::vector<ParameterList>& 
 }
 
 void ParameterOptions::apply(Settings& settings) const {
-  for (const auto& [name, option] : options_) {
-    if (option->count() == 0) continue;
-    settings.set(name, option->results().back(), Origin::command_line, "command line");
+  for (const auto& [name, value] : given()) {
+    settings.set(name, value, Origin::command_line, "command line");
   }
+}
+
+std::vector<ConfigAssignment> ParameterOptions::given() const {
+  std::vector<ConfigAssignment> assignments;
+  for (const auto& [name, option] : options_) {
+    if (option->count() > 0) assignments.push_back({name, option->results().back()});
+  }
+  return assignments;
 }
 
 }  // namespace slambench

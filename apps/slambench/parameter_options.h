@@ -18,6 +18,8 @@ class ParameterOptions {
   void add(CLI::App& command, const std::vector<ParameterList>& lists);
   /// Sets what was given on the command line. Throws UsageError.
   void apply(Settings& settings) const;
+  /// The same as names and unchecked values, in the order of the lists.
+  std::vector<ConfigAssignment> given() const;
 
  private:
   std::vector<std::pair<std::string, CLI::Option*>> options_;

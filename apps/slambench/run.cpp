@@ -173,15 +173,6 @@ void save_images(const FrameRecord& frame, Source& source, System& system, int e
   }
 }
 
-/// Renders what is to be rendered.
-void prepare(Source& source, int frames, bool show, const InterruptFlag& interrupt) {
-  ProgressBar bar("rendering", "frames", steady_clock(), show);
-  source.prepare(frames, [&](int done, int total) {
-    bar.show(done, total);
-    return !interrupt.raised().load();
-  });
-}
-
 Provenance provenance(const RunArguments& arguments, const Backend& backend,
                       std::chrono::sys_seconds started_at) {
   Provenance provenance = build_and_machine(started_at);
@@ -281,7 +272,7 @@ ExitStatus run(RunArguments& arguments) {
       open_results(p.output, default_result_folder(started_at, info.name, backend->name()));
   require_writable(p.output, *folder);
   const bool show = !p.output.quiet && !p.output.json;
-  prepare(*source, frames_to_run(info, p.run), show, interrupt);
+  prepare_sequence(*source, frames_to_run(info, p.run), show, interrupt);
   if (!p.source.ground_truth.empty()) check_ground_truth(*source, p.run);
   measure_idle(p.meters.idle, meters, show, interrupt);
 

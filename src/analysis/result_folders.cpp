@@ -32,6 +32,20 @@ bool is_number(const std::string& text) {
   return text.find_first_not_of("0123456789") == std::string::npos;
 }
 
+/// In order of their names.
+std::vector<fs::path> visible_folders_in(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    std::error_code ignored;
+    const bool hidden = it->path().filename().string().starts_with('.');
+    if (!hidden && it->is_directory(ignored)) found.push_back(it->path());
+  }
+  if (error) throw InputError(fmt::format("{}: {}", folder.string(), error.message()));
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 }  // namespace
 
 bool is_result_folder(const fs::path& folder) {
@@ -41,13 +55,17 @@ bool is_result_folder(const fs::path& folder) {
 
 std::vector<std::string> result_folders_in(const std::string& folder) {
   std::vector<std::string> found;
-  std::error_code error;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    const bool hidden = it->path().filename().string().starts_with('.');
-    if (!hidden && is_result_folder(it->path())) found.push_back(it->path());
+  for (const fs::path& inside : visible_folders_in(folder)) {
+    if (is_result_folder(inside)) {
+      found.push_back(inside);
+      continue;
+    }
+    std::error_code error;
+    if (!fs::exists(fs::path(folder) / "suite.json", error)) continue;
+    for (const fs::path& deeper : visible_folders_in(inside)) {
+      if (is_result_folder(deeper)) found.push_back(deeper);
+    }
   }
-  if (error) throw InputError(fmt::format("{}: {}", folder, error.message()));
-  std::sort(found.begin(), found.end());
   return found;
 }
 

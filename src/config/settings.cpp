@@ -9,6 +9,23 @@
 
 namespace slambench {
 
+std::string canonical_text(const Parameter& parameter, std::string_view text) {
+  return std::visit(
+      [&](auto* value) {
+        const auto before = *value;
+        try {
+          set_from_text(parameter, text);
+          std::string canonical = to_text(parameter);
+          *value = before;
+          return canonical;
+        } catch (...) {
+          *value = before;
+          throw;
+        }
+      },
+      parameter.value);
+}
+
 Settings::Settings(std::vector<ParameterList> lists) : lists_(std::move(lists)) {
   std::size_t count = 0;
   for (const ParameterList& list : lists_) count += list.parameters.size();

@@ -13,6 +13,10 @@
 
 namespace slambench {
 
+/// The text that the record would show of this value; the parameter stays as it is. Throws
+/// UsageError as set_from_text() does.
+std::string canonical_text(const Parameter& parameter, std::string_view text);
+
 /// Who sets a value, from weak to strong: a sequence's reader suggests, a sequence's own file
 /// knows.
 enum class Origin { defaults, reader, sequence, preset, file, command_line };

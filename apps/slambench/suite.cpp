@@ -1,0 +1,464 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "all_parameters.h"
+#include "analysis/figure.h"
+#include "analysis/stored_run.h"
+#include "child_process.h"
+#include "commands.h"
+#include "config/presets.h"
+#include "interrupt.h"
+#include "meters/clock.h"
+#include "open_sequence.h"
+#include "parameter_options.h"
+#include "results/page.h"
+#include "results/provenance.h"
+#include "shell_text.h"
+#include "suite/suite_folder.h"
+#include "suite/suite_plan.h"
+#include "suite/suite_summary.h"
+#include "suite_progress.h"
+#include "terminal.h"
+
+namespace slambench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* footer =
+    "FILE is TOML; docs/suite.md describes it:\n"
+    "\n"
+    "  sequence = [\"living-room/0\", \"living-room/2\"]\n"
+    "  [matrix]                          # every combination of\n"
+    "  backend = [\"serial\", \"openmp\"]\n"
+    "  volume-resolution = [128, 256]\n"
+    "  [run]                             # in all runs\n"
+    "  repeat = 3\n"
+    "\n"
+    "Runs take turns, each in a process of its own. The same command goes on where an\n"
+    "earlier one was stopped or killed: finished runs stay, failed ones are tried\n"
+    "again. Parameters on the command line are stronger than the file.\n"
+    "\n"
+    "Examples:\n"
+    "  slambench suite configs/paper.toml --dry-run\n"
+    "  slambench suite configs/paper.toml --frames 50 --repeat 1 --out results/try\n"
+    "  slambench report results/paper -o report.html\n"
+    "\n"
+    "Exit status: 1 when a run failed or the suite was interrupted, 4 when nothing\n"
+    "can run here or, with --require-all, something cannot.";
+
+struct SuiteArguments {
+  std::string program, file, out, preset;
+  bool dry_run = false, require_all = false, set_aside = false, quiet = false;
+  AllParameters parameters;
+  ParameterOptions options;
+};
+
+/// What is to be run here, and what cannot be.
+struct SuitePlan {
+  std::string title;
+  std::vector<Configuration> configurations;
+  std::vector<std::string> left_out;
+};
+
+std::optional<std::string> environment(const std::string& name) {
+  const char* value = std::getenv(name.c_str());
+  return value == nullptr ? std::nullopt : std::optional<std::string>(value);
+}
+
+bool can_be_opened(const std::string& sequence) {
+  return std::ranges::any_of(source_table(), [&](const SourceEntry& entry) {
+    return entry.unavailable.empty() && entry.matches(sequence);
+  });
+}
+
+SuiteSettings overrides(const SuiteArguments& arguments, const std::vector<ParameterList>& lists) {
+  SuiteSettings settings{arguments.preset, arguments.options.given()};
+  if (!settings.preset.empty()) find_preset(settings.preset);  // throws when there is none
+  for (const auto& [name, value] : settings.assignments) canonical_text(*find(lists, name), value);
+  return settings;
+}
+
+/// Backends that cannot be used here and why. Asked of a process of its own, as drivers stay
+/// loaded once they were.
+std::map<std::string, std::string> unavailable_backends(const std::string& program) {
+  const ChildOutcome list = run_child(program, {"list", "--json"}, [] { return true; });
+  const auto json = nlohmann::json::parse(list.out, nullptr, false);
+  if (list.status != 0 || !json.is_object()) {
+    throw Error(ExitStatus::failed, "slambench list --json failed: " + list.err);
+  }
+  std::map<std::string, std::string> unavailable;
+  for (const auto& backend : json.at("backends")) {
+    if (!backend.at("available").get<bool>()) {
+      unavailable[backend.at("name")] = backend.at("reason");
+    }
+  }
+  return unavailable;
+}
+
+void leave_out_backends(const std::string& program, SuitePlan* plan) {
+  const bool asks = std::ranges::any_of(
+      plan->configurations, [](const Configuration& c) { return c.value("backend").has_value(); });
+  if (!asks) return;
+  std::vector<std::string> found;
+  const auto unavailable = unavailable_backends(program);
+  std::erase_if(plan->configurations, [&](const Configuration& configuration) {
+    const auto it = unavailable.find(configuration.value("backend").value_or(""));
+    if (it == unavailable.end()) return false;
+    const std::string sentence = fmt::format("backend {}: {}", it->first, it->second);
+    if (std::ranges::find(found, sentence) == found.end()) found.push_back(sentence);
+    return true;
+  });
+  plan->left_out.insert(plan->left_out.end(), found.begin(), found.end());
+}
+
+SuitePlan make_plan(const SuiteArguments& arguments, const std::vector<ParameterList>& lists) {
+  SuiteFile file = read_suite_file(arguments.file, lists);
+  const SuiteSettings over = overrides(arguments, lists);
+  SuitePlan plan;
+  plan.title = file.title.empty() ? fs::path(file.path).stem().string() : file.title;
+  plan.left_out = resolve_sequences(&file, environment, can_be_opened);
+  plan.configurations = configurations(file, over, lists);
+  leave_out_backends(arguments.program, &plan);
+  if (plan.configurations.empty() || (arguments.require_all && !plan.left_out.empty())) {
+    throw UnavailableError(fmt::format("{}: cannot run here: {}", arguments.file,
+                                       plan.left_out.empty()
+                                           ? "no group has a sequence"
+                                           : fmt::format("{}", fmt::join(plan.left_out, "; "))));
+  }
+  return plan;
+}
+
+/// Opens every sequence, so that what is wrong with one is told now, and has it rendered unless it
+/// is to be looked at only. Returns the frames that each configuration runs over.
+std::vector<int> prepare_sequences(const std::vector<Configuration>& configurations, bool render,
+                                   bool show, const InterruptFlag& interrupt) {
+  std::map<std::vector<std::string>, int> known;
+  std::vector<int> frames;
+  for (const Configuration& configuration : configurations) {
+    AllParameters p;
+    const std::vector<ParameterList> of_input = {p.source.describe(), p.run.describe()};
+    std::vector<std::string> key = {configuration.sequence, configuration.preset};
+    for (const auto& [name, value] : configuration.assignments) {
+      if (find(of_input, name) != nullptr) key.insert(key.end(), {name, value});
+    }
+    auto it = known.find(key);
+    if (it == known.end()) {
+      Settings settings(p.lists());
+      if (!configuration.preset.empty()) settings.apply(find_preset(configuration.preset));
+      for (const auto& [name, value] : configuration.assignments) {
+        settings.set(name, value, Origin::command_line, "command line");
+      }
+      const auto source = open_sequence(configuration.sequence, p.source, &settings);
+      const int count = frames_to_run(source->info(), p.run);
+      if (render) prepare_sequence(*source, count, show, interrupt);
+      it = known.emplace(key, count).first;
+    }
+    frames.push_back(it->second);
+  }
+  return frames;
+}
+
+/// A suite that was killed leaves a run behind that ends a moment later.
+void take_lock(const std::string& folder, SuiteLock* lock) {
+  constexpr int tries = 100, wait_ms = 20;
+  for (int i = 0; i < tries; ++i) {
+    if (lock->take(folder)) return;
+    ::poll(nullptr, 0, wait_ms);
+  }
+  throw UsageError(folder + ": another suite is working in this folder");
+}
+
+std::string misfits_text(const std::vector<Misfit>& misfits) {
+  constexpr std::size_t most = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, misfits.size()); ++i) {
+    text += fmt::format("{}{} {}", i == 0 ? "" : "; ", misfits[i].path, misfits[i].reason);
+  }
+  if (misfits.size() > most) text += fmt::format("; and {} more", misfits.size() - most);
+  return text;
+}
+
+/// Throws when there are results that another suite, build or machine made.
+void require_own(const std::string& folder, const std::vector<Misfit>& foreign) {
+  if (foreign.empty()) return;
+  throw UsageError(fmt::format(
+      "{}: holds results that do not belong to the suite: {}; choose another --out, or say "
+      "--set-aside to move them to {}/.set-aside",
+      folder, misfits_text(foreign), folder));
+}
+
+/// Results of an interrupted run are worth nothing; of one that is not valid they say why.
+void discard(const std::string& folder, const std::string& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return;
+  bool complete = false;
+  try {
+    complete = read_stored_run(path).complete();
+  } catch (const InputError&) {  // it is half
+  }
+  if (complete) {
+    put_away(folder, "failed", path);
+  } else {
+    fs::remove_all(path, error);
+  }
+}
+
+/// Leaves nothing in the folder but what counts.
+void take_over(const std::string& folder, const SuitePlan& plan, const SuiteResults& results) {
+  for (const Misfit& misfit : results.foreign) put_away(folder, "set-aside", misfit.path);
+  for (const Misfit& misfit : results.half) discard(folder, misfit.path);
+  remove_suite_leftovers(folder);
+  write_suite(folder, plan.title, plan.configurations);
+}
+
+/// The last thing it said, or how it ended.
+std::string failure_text(const ChildOutcome& outcome) {
+  constexpr int signals = 128;
+  if (outcome.status > signals) return fmt::format("ended by signal {}", outcome.status - signals);
+  std::string text = outcome.err;
+  while (text.ends_with('\n')) text.pop_back();
+  text = text.substr(text.rfind('\n') + 1);
+  constexpr std::string_view prefix = "slambench: ";
+  if (text.starts_with(prefix)) text = text.substr(prefix.size());
+  return fmt::format("status {}{}{}", outcome.status, text.empty() ? "" : ": ", text);
+}
+
+std::string run_name(const Configuration& configuration, const PlannedRun& run) {
+  return run.repetition == 0 ? configuration.folder + ", warming up"
+                             : fmt::format("{}/{}", configuration.folder, run.repetition);
+}
+
+/// One suite at work.
+class SuiteRunner {
+ public:
+  SuiteRunner(const SuiteArguments& arguments, const SuitePlan& plan, std::string folder,
+              std::vector<int> frames, SuiteResults results)
+      : arguments_(arguments),
+        configurations_(plan.configurations),
+        folder_(std::move(folder)),
+        frames_(std::move(frames)),
+        results_(std::move(results)),
+        runs_(runs_in_turns(configurations_,
+                            [this](const PlannedRun& r) { return results_.done.contains(r); })) {
+    for (const auto& [run, cost] : results_.done) times_.add(of(run), cost);
+  }
+
+  const std::vector<PlannedRun>& runs() const { return runs_; }
+  const SuiteResults& results() const { return results_; }
+  const std::vector<std::string>& failures() const { return failures_; }
+
+  std::vector<std::string> arguments_of(const PlannedRun& run) const {
+    auto words = run_arguments(of(run));
+    words.push_back("--out=" + run_folder(folder_, of(run), run));
+    return words;
+  }
+
+  void run_all(const InterruptFlag& interrupt) {
+    SuiteProgress progress(runs_.size(), steady_clock(), !arguments_.quiet);
+    for (std::size_t i = 0; i < runs_.size() && !interrupt.raised().load(); ++i) {
+      run_one(i, interrupt, &progress);
+    }
+  }
+
+ private:
+  const Configuration& of(const PlannedRun& run) const {
+    return configurations_[run.configuration];
+  }
+
+  std::optional<double> expected_s(std::size_t from) const {
+    double sum = 0;
+    for (std::size_t i = from; i < runs_.size(); ++i) {
+      const auto one = times_.expected_s(of(runs_[i]), frames_[runs_[i].configuration]);
+      if (!one) return std::nullopt;
+      sum += *one;
+    }
+    return sum;
+  }
+
+  void run_one(std::size_t i, const InterruptFlag& interrupt, SuiteProgress* progress) {
+    const PlannedRun& run = runs_[i];
+    const std::string path = run_folder(folder_, of(run), run);
+    auto words = arguments_of(run);
+    words.push_back("--quiet");
+    progress->begin(i, run_name(of(run), run), expected_s(i));
+    const ChildOutcome outcome = run_child(arguments_.program, words, [&] {
+      progress->show();
+      return !interrupt.raised().load();
+    });
+    if (outcome.status == 0) {
+      const StoredRun stored = read_stored_run(path);
+      const RunCost cost{progress->elapsed_s(), frames_[run.configuration]};
+      times_.add(of(run), cost);
+      progress->end(value_of("time.fps_computation", stored), expected_s(i + 1));
+      if (run.repetition > 0) results_.done[run] = cost;
+    } else {
+      discard(folder_, path);
+      if (interrupt.raised().load()) return;
+      failures_.push_back(run_name(of(run), run));
+      progress->fail(failure_text(outcome));
+    }
+    if (outcome.status != 0 || run.repetition == 0) remove_suite_leftovers(folder_);
+  }
+
+  const SuiteArguments& arguments_;
+  const std::vector<Configuration>& configurations_;
+  const std::string folder_;
+  const std::vector<int> frames_;
+  SuiteResults results_;
+  const std::vector<PlannedRun> runs_;
+  RunTimes times_;
+  std::vector<std::string> failures_;
+};
+
+/// Two configurations that a user may want to compare: on one sequence, the first and the last.
+std::string comparison_example(const std::vector<Configuration>& configurations,
+                               const std::string& folder) {
+  const Configuration& base = configurations.front();
+  const Configuration* other = nullptr;
+  for (const Configuration& c : configurations) {
+    if (c.sequence_name == base.sequence_name && &c != &base) other = &c;
+  }
+  if (other == nullptr) return "";
+  return shell_text(
+      {"slambench", "compare", fs::path(folder) / base.folder, fs::path(folder) / other->folder});
+}
+
+/// Throws when something is wrong with the results.
+void report(const SuitePlan& plan, const SuiteRunner& runner, const std::string& folder,
+            const std::vector<ParameterList>& lists, bool quiet) {
+  std::vector<ConfigurationResult> results;
+  std::vector<std::string> problems;
+  for (std::size_t i = 0; i < plan.configurations.size(); ++i) {
+    const auto count = std::ranges::count_if(
+        runner.results().done, [&](const auto& done) { return done.first.configuration == i; });
+    results.push_back(
+        result_of(folder, plan.configurations[i], static_cast<std::size_t>(count), lists));
+    if (!results.back().problem.empty()) problems.push_back(results.back().problem);
+  }
+  if (!quiet) {
+    Page page(output_takes_colors());
+    page.gap();
+    for (const std::string& sentence : plan.left_out) page.wrapped("left out", sentence);
+    page.wrapped("results", folder);
+    const std::string example = comparison_example(plan.configurations, folder);
+    if (!example.empty()) page.wrapped("compare", example);
+    page.wrapped("report", shell_text({"slambench", "report", folder, "-o", "report.html"}));
+    print("\n" + suite_table(results, output_takes_colors()) + std::move(page).text());
+  }
+  if (!problems.empty()) {
+    throw Error(ExitStatus::failed, fmt::format("{}", fmt::join(problems, "; ")));
+  }
+  if (!runner.failures().empty()) {
+    throw Error(ExitStatus::failed,
+                fmt::format("{} of {} runs failed: {}; the same command tries them again",
+                            runner.failures().size(), runner.runs().size(),
+                            fmt::join(runner.failures(), ", ")));
+  }
+}
+
+/// A shell script: what is done or cannot be done is a comment.
+std::string listing(const SuitePlan& plan, const SuiteRunner& runner, const std::string& program) {
+  std::string text =
+      fmt::format("# {}: {} configurations, {} runs to do, {} done\n", plan.title,
+                  plan.configurations.size(), runner.runs().size(), runner.results().done.size());
+  for (const std::string& sentence : plan.left_out) {
+    text += fmt::format("# left out: {}\n", sentence);
+  }
+  for (const PlannedRun& run : runner.runs()) {
+    auto words = runner.arguments_of(run);
+    words.insert(words.begin(), program);
+    text += shell_text(words) + "\n";
+    if (run.repetition == 0) text += shell_text({"rm", "-r", words.back().substr(6)}) + "\n";
+  }
+  return text;
+}
+
+std::string folder_of(const SuiteArguments& arguments) {
+  fs::path folder = arguments.out.empty() ? fs::path("results") / fs::path(arguments.file).stem()
+                                          : fs::path(arguments.out).lexically_normal();
+  return (folder.has_filename() ? folder : folder.parent_path()).string();
+}
+
+ExitStatus run(SuiteArguments& arguments) {
+  const std::vector<ParameterList> lists = arguments.parameters.lists();
+  SuitePlan plan = make_plan(arguments, lists);
+  const std::string folder = folder_of(arguments);
+  const Provenance build =
+      build_and_machine(std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()));
+  keep_folders(folder, &plan.configurations);
+  SuiteLock lock;
+  if (!arguments.dry_run) {
+    take_lock(folder, &lock);
+    keep_folders(folder, &plan.configurations);  // now that nobody else changes it
+  }
+  SuiteResults results = find_results(folder, plan.configurations, build, lists);
+  if (!arguments.set_aside) require_own(folder, results.foreign);
+  const InterruptFlag interrupt;
+  auto frames =
+      prepare_sequences(plan.configurations, !arguments.dry_run, !arguments.quiet, interrupt);
+  if (!arguments.dry_run) take_over(folder, plan, results);
+  SuiteRunner runner(arguments, plan, folder, std::move(frames), std::move(results));
+  if (arguments.dry_run) {
+    print(listing(plan, runner, arguments.program));
+    return ExitStatus::ok;
+  }
+  const std::size_t before = runner.results().done.size();
+  if (!arguments.quiet) {
+    print(fmt::format("{}: {} configurations, {} runs to do, {} done before\n", plan.title,
+                      plan.configurations.size(), runner.runs().size(), before));
+  }
+  runner.run_all(interrupt);
+  if (interrupt.raised().load()) {
+    throw Error(ExitStatus::failed,
+                fmt::format("interrupted; {} runs are done; the same command goes on from there",
+                            runner.results().done.size()));
+  }
+  report(plan, runner, folder, lists, arguments.quiet);
+  return ExitStatus::ok;
+}
+
+}  // namespace
+
+Action add_suite(CLI::App& command, const std::string& program) {
+  auto arguments = std::make_shared<SuiteArguments>();
+  arguments->program = program;
+  command.add_option("FILE", arguments->file, "what is to be run: a TOML file, see below")
+      ->required();
+  command
+      .add_option("--out", arguments->out,
+                  "folder of the results, also of earlier ones (default results/NAME for "
+                  "NAME.toml)")
+      ->type_name("DIR");
+  command.add_flag("--dry-run", arguments->dry_run,
+                   "print the runs that are to be done, as commands, and end");
+  command.add_flag("--require-all", arguments->require_all,
+                   "end with status 4 when a backend or an optional sequence is not there; "
+                   "otherwise it is left out with a word");
+  command.add_flag("--set-aside", arguments->set_aside,
+                   "move results in DIR that the suite no longer has, or that another build or "
+                   "machine made, to DIR/.set-aside; otherwise they are refused");
+  command.add_flag("--quiet", arguments->quiet, "print errors only");
+  command.add_option("--preset", arguments->preset, "in all runs, instead of those of the file")
+      ->type_name("NAME");
+  auto lists = arguments->parameters.lists();
+  std::erase_if(lists, [](const ParameterList& list) { return list.group == "output"; });
+  arguments->options.add(command, lists);
+  command.footer(footer);
+  return [arguments] { return run(*arguments); };
+}
+
+}  // namespace slambench

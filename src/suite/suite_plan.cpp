@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#include "suite/suite_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "config/settings.h"
+#include "core/error.h"
+
+namespace slambench {
+namespace {
+
+using Lists = std::vector<ParameterList>;
+
+std::string folder_name(const std::string& words) {
+  std::string name;
+  for (const char c : words) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '_' || c == '-' || c == '.';
+    name += plain ? c : '-';
+  }
+  if (name.starts_with('.')) name.front() = '-';  // hidden folders hold no results
+  return name;
+}
+
+/// The first free one of NAME, NAME-2, NAME-3, ...
+std::string unused_name(const std::string& name, const std::vector<Configuration>& used) {
+  std::string candidate = name;
+  for (int i = 2; std::ranges::find(used, candidate, &Configuration::folder) != used.end(); ++i) {
+    candidate = fmt::format("{}-{}", name, i);
+  }
+  return candidate;
+}
+
+/// The suite's axes with those of the group in their places, without those that are overridden.
+std::vector<SuiteAxis> axes_of(const SuiteFile& file, const SuiteGroup& group,
+                               const SuiteSettings& overrides) {
+  std::vector<SuiteAxis> axes = file.axes;
+  for (const SuiteAxis& axis : group.axes) {
+    const auto same = std::ranges::find(axes, axis.name, &SuiteAxis::name);
+    same == axes.end() ? axes.push_back(axis) : void(*same = axis);
+  }
+  std::erase_if(axes, [&](const SuiteAxis& axis) {
+    if (axis.name == "preset") return !overrides.preset.empty();
+    return std::ranges::find(overrides.assignments, axis.name, &ConfigAssignment::name) !=
+           overrides.assignments.end();
+  });
+  return axes;
+}
+
+/// Words speak for themselves, numbers do not.
+std::string value_label(const SuiteAxis& axis, const std::string& value, const Lists& lists) {
+  const Parameter* parameter = find(lists, axis.name);
+  const bool word = parameter == nullptr || !parameter->choices.empty();
+  return word ? value : fmt::format("{}={}", axis.name, value);
+}
+
+/// Settings in which the last call wins.
+class Layers {
+ public:
+  explicit Layers(const Lists& lists) : lists_(lists) {}
+
+  void add(const SuiteSettings& settings) {
+    if (!settings.preset.empty()) preset_ = settings.preset;
+    for (const ConfigAssignment& a : settings.assignments) add(a.name, a.value);
+  }
+  void add(const std::string& name, const std::string& value) {
+    if (name == "preset") {
+      preset_ = value;
+    } else {
+      values_[name] = canonical_text(*find(lists_, name), value);
+    }
+  }
+
+  void write_to(Configuration* configuration) const {
+    configuration->preset = preset_;
+    for (const ParameterList& list : lists_) {
+      for (const Parameter& parameter : list.parameters) {
+        const auto it = values_.find(std::string(parameter.name));
+        if (it == values_.end()) continue;
+        if (parameter.name == "repeat") {
+          configuration->repeat = std::stoi(it->second);
+        } else if (parameter.name == "warmup") {
+          configuration->warmup = std::stoi(it->second);
+        } else {
+          configuration->assignments.push_back({it->first, it->second});
+        }
+      }
+    }
+  }
+
+ private:
+  const Lists& lists_;
+  std::string preset_;
+  std::map<std::string, std::string> values_;
+};
+
+/// The place of one combination on each axis; false after the last one.
+bool advance(std::vector<std::size_t>* place, const std::vector<SuiteAxis>& axes) {
+  for (std::size_t i = axes.size(); i-- > 0;) {
+    if (++(*place)[i] < axes[i].values.size()) return true;
+    (*place)[i] = 0;
+  }
+  return false;
+}
+
+void add_combinations(const SuiteFile& file, const SuiteSequence& sequence, const SuiteGroup& group,
+                      const SuiteSettings& overrides, const Lists& lists,
+                      std::vector<Configuration>* all) {
+  const std::vector<SuiteAxis> axes = axes_of(file, group, overrides);
+  std::vector<std::size_t> place(axes.size(), 0);
+  do {
+    Layers layers(lists);
+    layers.add(file.settings);
+    layers.add(sequence.settings);
+    layers.add(group.settings);
+    std::string variant = group.name;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      const std::string& value = axes[i].values[place[i]];
+      layers.add(axes[i].name, value);
+      if (axes[i].values.size() < 2) continue;
+      variant +=
+          fmt::format("{}{}", variant.empty() ? "" : " ", value_label(axes[i], value, lists));
+    }
+    layers.add(overrides);
+    Configuration configuration;
+    configuration.sequence_name = sequence.name;
+    configuration.variant = variant;
+    configuration.sequence = sequence.path;
+    layers.write_to(&configuration);
+    const std::string words = variant.empty() ? sequence.name : sequence.name + " " + variant;
+    configuration.folder = unused_name(folder_name(words), *all);
+    all->push_back(std::move(configuration));
+  } while (advance(&place, axes));
+}
+
+void require_different(const SuiteFile& file, const std::vector<Configuration>& all) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!all[i].computes_the_same_as(all[j])) continue;
+      throw InputError(
+          fmt::format("{}: {} and {} are the same runs: found equal settings, expected groups and "
+                      "sequences that differ",
+                      file.path, all[j].folder, all[i].folder));
+    }
+  }
+}
+
+/// "${A}/b" with the value of A; the name that is not set in `missing`.
+std::string with_environment(
+    const std::string& path,
+    const std::function<std::optional<std::string>(const std::string&)>& environment,
+    std::string* missing) {
+  std::string text;
+  for (std::size_t at = 0;;) {
+    const std::size_t begin = path.find("${", at);
+    const std::size_t end = begin == std::string::npos ? begin : path.find('}', begin);
+    text += path.substr(at, end == std::string::npos ? end : begin - at);
+    if (end == std::string::npos) return text;
+    const std::string name = path.substr(begin + 2, end - begin - 2);
+    const auto value = environment(name);
+    if (value && !value->empty()) text += *value;
+    if (!value || value->empty()) *missing = name;
+    at = end + 1;
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> Configuration::value(std::string_view parameter) const {
+  const auto it = std::ranges::find(assignments, parameter, &ConfigAssignment::name);
+  return it == assignments.end() ? std::nullopt : std::optional(it->value);
+}
+
+bool Configuration::computes_the_same_as(const Configuration& other) const {
+  return sequence == other.sequence && preset == other.preset &&
+         std::ranges::equal(assignments, other.assignments, [](const auto& a, const auto& b) {
+           return a.name == b.name && a.value == b.value;
+         });
+}
+
+std::vector<std::string> resolve_sequences(
+    SuiteFile* file,
+    const std::function<std::optional<std::string>(const std::string&)>& environment,
+    const std::function<bool(const std::string& path)>& is_there) {
+  std::vector<std::string> left_out;
+  std::erase_if(file->sequences, [&](SuiteSequence& sequence) {
+    std::string missing;
+    const std::string written = sequence.path;
+    sequence.path = with_environment(written, environment, &missing);
+    if (!missing.empty() && !sequence.optional) {
+      throw InputError(fmt::format("{}:{}: path: found '{}', expected the environment to have {}",
+                                   file->path, sequence.line, written, missing));
+    }
+    if (!sequence.optional || (missing.empty() && is_there(sequence.path))) return false;
+    left_out.push_back(
+        fmt::format("sequence {}: {}", sequence.name,
+                    missing.empty() ? sequence.path + " is not there" : missing + " is not set"));
+    return true;
+  });
+  return left_out;
+}
+
+std::vector<Configuration> configurations(const SuiteFile& file, const SuiteSettings& overrides,
+                                          const Lists& lists) {
+  std::vector<Configuration> all;
+  for (const SuiteSequence& sequence : file.sequences) {
+    for (const SuiteGroup& group : file.groups) {
+      const bool wanted =
+          group.sequences.empty() ||
+          std::ranges::find(group.sequences, sequence.name) != group.sequences.end();
+      if (wanted) add_combinations(file, sequence, group, overrides, lists, &all);
+    }
+  }
+  require_different(file, all);
+  return all;
+}
+
+std::vector<std::string> run_arguments(const Configuration& configuration) {
+  const bool looks_like_option = configuration.sequence.starts_with('-');
+  std::vector<std::string> words = {
+      "run", fmt::format("{}{}", looks_like_option ? "--input-file=" : "", configuration.sequence)};
+  if (!configuration.preset.empty()) words.push_back("--preset=" + configuration.preset);
+  for (const ConfigAssignment& assignment : configuration.assignments) {
+    words.push_back(fmt::format("--{}={}", assignment.name, assignment.value));
+  }
+  return words;
+}
+
+std::vector<PlannedRun> runs_in_turns(const std::vector<Configuration>& configurations,
+                                      const std::function<bool(const PlannedRun&)>& is_done) {
+  int most_runs = 0, most_warmups = 0;
+  for (const Configuration& c : configurations) {
+    most_runs = std::max(most_runs, c.repeat);
+    most_warmups = std::max(most_warmups, c.warmup);
+  }
+  std::vector<PlannedRun> runs;
+  std::set<std::size_t> unfinished;
+  for (int repetition = 1; repetition <= most_runs; ++repetition) {
+    for (std::size_t i = 0; i < configurations.size(); ++i) {
+      const PlannedRun run{i, repetition};
+      if (repetition > configurations[i].repeat || is_done(run)) continue;
+      runs.push_back(run);
+      unfinished.insert(i);
+    }
+  }
+  std::vector<PlannedRun> warmups;
+  for (int turn = 0; turn < most_warmups; ++turn) {
+    for (const std::size_t i : unfinished) {
+      if (turn < configurations[i].warmup) warmups.push_back({i, 0});
+    }
+  }
+  runs.insert(runs.begin(), warmups.begin(), warmups.end());
+  return runs;
+}
+
+}  // namespace slambench

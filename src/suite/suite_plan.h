@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: The SLAMBench authors
+#pragma once
+
+#include <compare>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "suite/suite_file.h"
+
+namespace slambench {
+
+/// One cell of the matrix: what is run, as often as it says.
+struct Configuration {
+  std::string folder;         ///< of its runs, in that of the suite: no other has the same
+  std::string sequence_name;  ///< the row of a table
+  std::string variant;        ///< the column: its group, and the values that vary
+  std::string sequence, preset;
+  std::vector<ConfigAssignment> assignments;  ///< as records show them, in the order of the lists
+  int repeat = 1, warmup = 0;
+
+  /// Nothing when the preset or the default decides.
+  std::optional<std::string> value(std::string_view parameter) const;
+  bool computes_the_same_as(const Configuration& other) const;
+};
+
+/// Puts the environment's values in place of ${NAME} in the paths of sequences, and takes out those
+/// that are optional and not there. Returns a sentence for each of these. Throws InputError for a
+/// name that is not set, when the sequence is not optional.
+std::vector<std::string> resolve_sequences(
+    SuiteFile* file,
+    const std::function<std::optional<std::string>(const std::string&)>& environment,
+    const std::function<bool(const std::string& path)>& is_there);
+
+/// All combinations: by sequence, then group, then the values of the matrix, the last axis the
+/// quickest. From weak to strong: the suite's settings, the sequence's, the group's, the values of
+/// the matrix, `overrides`; an axis that these set does not vary. Throws InputError when two
+/// combinations are the same.
+std::vector<Configuration> configurations(const SuiteFile& file, const SuiteSettings& overrides,
+                                          const std::vector<ParameterList>& lists);
+
+/// What stands after "slambench", but for the folder of the results.
+std::vector<std::string> run_arguments(const Configuration& configuration);
+
+struct PlannedRun {
+  std::size_t configuration = 0;
+  int repetition = 0;  ///< from 1; 0 for a run that warms up and is in no figure
+  auto operator<=>(const PlannedRun&) const = default;
+};
+
+/// The runs that are not done, in turns: the first of every configuration, then the second of
+/// every, and so on, so that what changes slowly in the machine meets all alike. Before them those
+/// that warm up, of configurations that have runs left.
+std::vector<PlannedRun> runs_in_turns(const std::vector<Configuration>& configurations,
+                                      const std::function<bool(const PlannedRun&)>& is_done);
+
+}  // namespace slambench
