@@ -8,12 +8,14 @@ PREFIX ?= /usr/local
 INSTALL ?= yes
 ARGS ?=
 
-.PHONY: help run test asan tsan aarch64 tidy install build dependencies clean
+.PHONY: help run paper test asan tsan aarch64 tidy install build dependencies clean
 .DEFAULT_GOAL := help
 
 help: ## show this
 	@echo "make run        set up, build, and benchmark the built-in sequence"
 	@echo "                (ARGS='path/to/recording -c 2' runs something else)"
+	@echo "make paper      set up, build, run the experiment of the SLAMBench paper (some 25"
+	@echo "                minutes on two cores), and make its report"
 	@echo "make test       set up, build, and run all tests"
 	@echo "make asan       the tests under AddressSanitizer and UndefinedBehaviourSanitizer"
 	@echo "make tsan       the agreement tests under ThreadSanitizer"
@@ -39,6 +41,14 @@ run: dependencies
 	@cmake --preset release
 	@cmake --build --preset release --parallel $(JOBS) --target slambench
 	@build/release/apps/slambench/slambench run $(ARGS)
+
+# Goes on where it was interrupted. ARGS='--frames=50 --out=results/try' tries it out.
+paper: OUT = $(or $(patsubst --out=%,%,$(filter --out=%,$(ARGS))),results/paper)
+paper: dependencies
+	@cmake --preset release
+	@cmake --build --preset release --parallel $(JOBS) --target slambench
+	@build/release/apps/slambench/slambench suite configs/paper.toml $(ARGS)
+	@build/release/apps/slambench/slambench report $(OUT) -o $(OUT)/report.html
 
 test: build
 	@ctest --preset release --parallel $(JOBS)

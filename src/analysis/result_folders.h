@@ -11,9 +11,9 @@ namespace slambench {
 /// Whether `slambench run` left its results there: whether the folder has a record.json.
 bool is_result_folder(const std::filesystem::path& folder);
 
-/// The result folders in a folder, hidden ones left out, in order of their names; in that of a suite
-/// (suite.json) also those one level deeper. Throws InputError naming a folder that cannot be read,
-/// with the system's reason.
+/// The result folders in a folder, hidden ones left out, in order of their names; in that of a
+/// suite (suite.json) also those one level deeper. Throws InputError naming a folder that cannot be
+/// read, with the system's reason.
 std::vector<std::string> result_folders_in(const std::string& folder);
 
 /// The result folders that the arguments name: each is one, or holds some, which come in order of

@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "cli/small_recording.h"
+#include "scene/renderer.h"
 #include "support/program.h"
 
 namespace slambench {
@@ -228,6 +229,16 @@ TEST_F(SuiteTest, WrongArgumentsHaveTheirStatus) {
   const testing::Outcome taken = program_.run({"suite", "a.toml", "--out", "taken"});
   EXPECT_EQ(taken.status, 2);
   EXPECT_THAT(taken.err, HasSubstr("taken: holds files but no suite"));
+}
+
+TEST_F(SuiteTest, ThePapersExperimentIsOne) {
+  if (!can_render()) GTEST_SKIP() << "this build cannot render the living room";
+  const testing::Outcome outcome =
+      program_.run({"suite", SLAMBENCH_SOURCE_DIR "/configs/paper.toml", "--dry-run"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("living-room-0-published-serial/1"),
+                                 HasSubstr("living-room-2-fast-openmp/5"),
+                                 Not(HasSubstr("living-room-3-published-serial/2"))));
 }
 
 TEST_F(SuiteTest, TwoInOneFolderAreRefused) {

@@ -134,7 +134,7 @@ TEST_F(SuitePlanTest, RunsTakeTurns) {
 TEST_F(SuitePlanTest, ErrorsNameFileLineAndWhatWasExpected) {
   EXPECT_THAT(error("sequence = 'a'\n[matrix]\nbackend = ['serial', 'openmpi']\n"),
               ::testing::AllOf(HasSubstr("a.toml:3: backend: found 'openmpi', expected one of "),
-                             HasSubstr("openmp")));
+                               HasSubstr("openmp")));
   EXPECT_EQ(error("sequence = 'a'\n[matrix]\nbackends = ['serial']\n"),
             "a.toml:3: unknown parameter 'backends' in [matrix]; did you mean 'backend'?");
   EXPECT_EQ(error("sequence = 'a'\n[matrix]\nmu = 0.1\n"),
