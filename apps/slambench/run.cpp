@@ -249,8 +249,7 @@ void measure_idle(double seconds, RunMeters& meters, bool show, const InterruptF
 void add_device_memory(const Backend& backend, Measurements* measurements) {
   measurements->memory.device_bytes = backend.device_bytes();
   if (measurements->memory.device_bytes) return;
-  measurements->absent["memory.device_bytes"] =
-      backend.threads() > 0 ? "computes in host memory" : "the backend does not tell";
+  measurements->absent["memory.device_bytes"] = "computes in host memory";
 }
 
 std::string progress_title(const std::string& sequence, const RunNumber& run) {

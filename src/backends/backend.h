@@ -112,7 +112,8 @@ class Backend {
   virtual int threads() const { return 0; }
   /// Processors of the host that kernels keep busy, the caller's included.
   virtual int busy_processors() const { return std::max(1, threads()); }
-  /// Memory that this instance holds now on a device with memory of its own; none on the host.
+  /// Memory that this instance holds now on a device with memory of its own; none when it computes
+  /// in the host's.
   virtual std::optional<std::size_t> device_bytes() const { return std::nullopt; }
   /// An honest answer: whether the kernel is implemented for this map.
   virtual bool supports(Kernel kernel, MapKind map) const = 0;

@@ -138,6 +138,17 @@ TEST(CudaBackendMemory, IsGivenBack) {
   EXPECT_TRUE(launch->live.empty());
 }
 
+TEST_F(CudaBackend, TellsWhatMemoryItHolds) {
+  const std::size_t before = backend.device_bytes().value();
+  {
+    const auto image = backend.make_image<float>({40, 30});
+    EXPECT_EQ(backend.device_bytes(), before + 40 * 30 * sizeof(float));
+    const Volume volume = backend.make_volume(MapKind::grid, {8, 8, 8}, {1, 1, 1});
+    EXPECT_EQ(backend.device_bytes(), before + 40 * 30 * sizeof(float) + 8 * 8 * 8 * sizeof(Voxel));
+  }
+  EXPECT_EQ(backend.device_bytes(), before);
+}
+
 TEST_F(CudaBackend, SaysWhatDoesNotFit) {
   for (const MapKind map : {MapKind::grid, MapKind::bricks}) {
     EXPECT_THROW(backend.make_volume(map, {2048, 2048, 2048}, {1, 1, 1}), UnavailableError);

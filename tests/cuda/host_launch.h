@@ -95,12 +95,15 @@ class HostLaunch {
     if (data == nullptr) throw UnavailableError("no memory");
     std::memset(data, 0xa5, bytes);
     live.insert(data);
+    allocated_ += bytes;
     return data;
   }
-  void release(void* data) noexcept {
+  void release(void* data, std::size_t bytes) noexcept {
     live.erase(data);
     std::free(data);
+    allocated_ -= bytes;
   }
+  std::size_t allocated_bytes() const { return allocated_; }
   void upload(void* device, const void* host, std::size_t bytes) {
     std::memcpy(device, host, bytes);
   }
@@ -179,6 +182,7 @@ class HostLaunch {
 
   Order order_;
   int processors_;
+  std::size_t allocated_ = 0;
   std::vector<Kernel> pending_;
   std::vector<std::pair<Transfer, std::size_t>> pending_copies_;
   std::size_t copied_ = 0;

@@ -133,6 +133,7 @@ void* CudaDevice::allocate(std::size_t bytes) {
   const cudaError_t status = cudaMalloc(&data, std::max<std::size_t>(bytes, 1));
   if (status != cudaErrorMemoryAllocation) {
     SLAMBENCH_CUDA(status);
+    allocated_bytes_ += bytes;
     return data;
   }
   cudaGetLastError();
@@ -143,9 +144,10 @@ void* CudaDevice::allocate(std::size_t bytes) {
                   bytes >> 20));
 }
 
-void CudaDevice::release(void* data) noexcept {
+void CudaDevice::release(void* data, std::size_t bytes) noexcept {
   cudaSetDevice(index_);
   cudaFree(data);
+  allocated_bytes_ -= bytes;
 }
 
 const CudaDevice::Stage& CudaDevice::next_stage() {

@@ -36,7 +36,8 @@ class CudaDevice {
   int processors() const { return processors_; }
 
   void* allocate(std::size_t bytes);
-  void release(void* data) noexcept;
+  void release(void* data, std::size_t bytes) noexcept;
+  std::size_t allocated_bytes() const { return allocated_bytes_; }
   void upload(void* device, const void* host, std::size_t bytes);
   void download(void* host, const void* device, std::size_t bytes);
   void finish();
@@ -79,6 +80,7 @@ class CudaDevice {
   void destroy() noexcept;
 
   int index_, processors_ = 0;
+  std::size_t allocated_bytes_ = 0;
   cudaStream_t stream_ = nullptr;
   Stage stages_[2];
   int stage_ = 0;

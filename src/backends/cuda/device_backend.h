@@ -22,7 +22,8 @@
 ///     std::string device() const, driver() const;
 ///     int processors() const;              // blocks of `grid`; a good number for `blocks`
 ///     void* allocate(std::size_t bytes);   // throws UnavailableError
-///     void release(void*) noexcept;
+///     void release(void*, std::size_t bytes) noexcept;
+///     std::size_t allocated_bytes() const;
 ///     void upload(void* device, const void* host, std::size_t bytes);    // host is free again
 ///     void download(void* host, const void* device, std::size_t bytes);  // waits
 ///     void finish();                                                     // waits
@@ -55,7 +56,7 @@ class Buffer {
  public:
   Buffer(std::shared_ptr<Launch> launch, std::size_t bytes)
       : launch_(std::move(launch)), data_(launch_->allocate(bytes)), bytes_(bytes) {}
-  ~Buffer() { launch_->release(data_); }
+  ~Buffer() { launch_->release(data_, bytes_); }
   Buffer(const Buffer&) = delete;
   Buffer& operator=(const Buffer&) = delete;
 
@@ -132,6 +133,7 @@ class DeviceBackend final : public Backend {
   std::string_view name() const override { return "cuda"; }
   std::string device() const override { return launch_->device(); }
   std::string driver() const override { return launch_->driver(); }
+  std::optional<std::size_t> device_bytes() const override { return launch_->allocated_bytes(); }
   bool supports(Kernel kernel, MapKind map) const override {
     return kernel != Kernel::acquire && (map == MapKind::grid || map == MapKind::bricks);
   }
