@@ -324,13 +324,15 @@ class SuiteRunner {
   std::vector<std::string> failures_;
 };
 
-/// Two configurations that a user may want to compare: on one sequence, the first and the last.
+/// Two configurations that a user may want to compare and that compute the same: on one sequence
+/// with one preset, the first and the last.
 std::string comparison_example(const std::vector<Configuration>& configurations,
                                const std::string& folder) {
   const Configuration& base = configurations.front();
   const Configuration* other = nullptr;
   for (const Configuration& c : configurations) {
-    if (c.sequence_name == base.sequence_name && &c != &base) other = &c;
+    const bool alike = c.sequence_name == base.sequence_name && c.preset == base.preset;
+    if (alike && &c != &base) other = &c;
   }
   if (other == nullptr) return "";
   return shell_text(
