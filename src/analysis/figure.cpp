@@ -21,6 +21,8 @@ void add_times(std::vector<NamedFigure>* table) {
       "mean time a frame, acquiring and drawing included");
   add("computation_p99_s", FigureGroup::speed, "time.computation_s.p99",
       "what 99 of 100 frames need at most");
+  add("read_s", FigureGroup::speed, "time.read_s.mean",
+      "mean time of reading a frame, on whichever thread");
   for (std::size_t i = 0; i < stage_count; ++i) {
     const auto stage = static_cast<Stage>(i);
     if (stage == Stage::init) continue;

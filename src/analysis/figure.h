@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -22,7 +23,8 @@ struct Tolerance {
   double absolute = 0;  ///< in the figure's unit
   bool holds(double base, double other) const {
     const double difference = std::abs(other - base);
-    return difference <= relative * std::abs(base) || difference <= absolute;
+    const double larger = std::max(std::abs(base), std::abs(other));
+    return difference <= relative * larger || difference <= absolute;
   }
 };
 

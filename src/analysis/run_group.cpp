@@ -23,10 +23,10 @@ constexpr const char* nothing = "nothing";
 /// It only names values that are all there.
 constexpr std::string_view preset = "run.preset";
 
-constexpr std::array<std::string_view, 10> build_places = {
+constexpr std::array<std::string_view, 11> build_places = {
     "provenance.version",    "provenance.commit", "provenance.compiler", "provenance.flags",
     "provenance.build_type", "provenance.cpu",    "provenance.cores",    "provenance.os",
-    "provenance.device",     "provenance.driver"};
+    "provenance.device",     "provenance.driver", "time.read_ahead"};
 
 constexpr std::array<std::string_view, 9> input_places = {
     "sequence.input_hash",        "sequence.name",      "sequence.input_size.width",

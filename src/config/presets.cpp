@@ -35,7 +35,8 @@ std::vector<Preset> preset_table() {
         {"fused", "false"},
         {"icl-nuim-camera", "slambench1"},
         {"light", "1,1,-1"},
-        {"light-frame", "volume"}}},
+        {"light-frame", "volume"},
+        {"prefetch", "off"}}},
   };
 }
 

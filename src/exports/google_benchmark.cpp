@@ -90,8 +90,6 @@ Json entry_of(const std::string& name, const StoredRun& run, double seconds) {
   return {{"name", name},
           {"run_name", name},
           {"run_type", "iteration"},
-          {"repetitions", 1},
-          {"repetition_index", 0},
           {"threads", std::max(1L, number("provenance.threads"))},
           {"iterations", number("time.measured_frames")},
           {"real_time", seconds * 1e3},

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "analysis/frame_columns.h"
 #include "analysis/samples.h"
@@ -28,9 +29,10 @@ using Json = nlohmann::ordered_json;
 using Nanoseconds = std::int64_t;
 
 constexpr const char* laid_out =
-    "Frames begin when they were measured to begin. Within a frame its stages follow one another "
-    "in the order of the pipeline, without the moments between them, and within a stage its "
-    "kernels, each once with the time of all its calls: lengths are measured, these places are "
+    "Acquiring a frame and processing it begin when they were measured to begin. In processing, "
+    "stages follow one another in the order of the pipeline, without the moments between them, and "
+    "within a stage its kernels, each once with the time of all its calls: lengths are measured, "
+    "these places are "
     "not.";
 constexpr const char* no_starts =
     "This result folder does not have the times at which frames began: they are laid end to end.";
@@ -55,7 +57,9 @@ class Frames {
   }
 
   std::size_t count() const { return columns_.at("index").size(); }
-  bool have_starts() const { return columns_.contains("start_s"); }
+  bool have_starts() const {
+    return columns_.contains("start_s") && columns_.contains("process_start_s");
+  }
   double value(std::string_view column, std::size_t row) const {
     const auto it = columns_.find(column);
     return it == columns_.end() ? std::nan("") : it->second[row];
@@ -125,9 +129,7 @@ class RunTrace {
         add_dropped(frames.index(row), end);
         continue;
       }
-      const Nanoseconds begin =
-          frames.have_starts() ? nanoseconds(frames.value("start_s", row)) : end;
-      end = add_frame(frames, row, begin);
+      end = add_frame(frames, row, end);
     }
   }
 
@@ -175,26 +177,41 @@ class RunTrace {
                        {"args", {{"value", value}}}});
   }
 
-  /// Returns its end.
-  Nanoseconds add_frame(const Frames& frames, std::size_t row, Nanoseconds begin) {
-    Nanoseconds length = 0;
-    for (const Stage stage : stages) length += frames.stage(stage, row).value_or(0);
+  /// Returns its end. `before` is that of the frame before.
+  Nanoseconds add_frame(const Frames& frames, std::size_t row, Nanoseconds before) {
+    const auto [begin, processed] = starts(frames, row, before);
+    Nanoseconds end = processed;
+    for (const Stage stage : stages) {
+      if (stage != Stage::acquire) end += frames.stage(stage, row).value_or(0);
+    }
     Json facts = Json::object();
     for (const char* name : {"tracked", "integrated", "warmup", "time_s", "error_se3_m",
                              "transfer_to_device_s", "transfer_to_host_s"}) {
       const double value = frames.value(name, row);
       if (!std::isnan(value)) facts[name] = value;
     }
-    add_slice("frame", fmt::format("frame {}", frames.index(row)), pipeline_thread, begin, length,
-              std::move(facts));
+    add_slice("frame", fmt::format("frame {}", frames.index(row)), pipeline_thread, begin,
+              end - begin, std::move(facts));
     Nanoseconds at = begin;
     for (const Stage stage : stages) {
+      if (stage == Stage::preprocess) at = processed;
       const auto taken = frames.stage(stage, row);
       if (taken) add_slice("stage", std::string(name(stage)), pipeline_thread, at, *taken, {});
       add_kernels(frames, row, stage, at, at + taken.value_or(0));
       at += taken.value_or(0);
     }
     return at;
+  }
+
+  /// When acquiring and when processing a frame began; where nobody wrote that down, right after
+  /// the frame before.
+  static std::pair<Nanoseconds, Nanoseconds> starts(const Frames& frames, std::size_t row,
+                                                    Nanoseconds before) {
+    const Nanoseconds acquired = frames.stage(Stage::acquire, row).value_or(0);
+    if (!frames.have_starts()) return {before, before + acquired};
+    const Nanoseconds begin = nanoseconds(frames.value("start_s", row));
+    const Nanoseconds processed = nanoseconds(frames.value("process_start_s", row));
+    return {begin, std::max(begin + acquired, processed)};
   }
 
   void add_kernels(const Frames& frames, std::size_t row, Stage stage, Nanoseconds begin,

@@ -77,6 +77,7 @@ void add_header(std::size_t levels, Rows* rows) {
     rows->add(fmt::format("iterations_level{}", level));
   }
   rows->add("start_s");
+  rows->add("process_start_s");
   rows->add("computation_s");
   rows->add("total_s");
   rows->add("read_s");
@@ -128,6 +129,7 @@ void add_alignment(const FrameRecord& frame, std::size_t levels, Rows* rows) {
 void add_times(const FrameRecord& frame, Rows* rows) {
   const FrameTimes& times = frame.times;
   rows->add(frame.start_s);
+  rows->add(frame.process_start_s);
   rows->add(times.computation_s());
   rows->add(times.total_s());
   rows->add(times.read_s);
@@ -155,7 +157,7 @@ void add_times(const FrameRecord& frame, Rows* rows) {
 std::size_t time_column_count() {
   std::size_t kernels = 0;
   for (const KernelInfo& kernel : kernel_table()) kernels += within_frames(kernel.stage) ? 1 : 0;
-  return 4 + (stage_count - 1) + 2 * kernels + 3 * transfer_count;
+  return 5 + (stage_count - 1) + 2 * kernels + 3 * transfer_count;
 }
 
 }  // namespace

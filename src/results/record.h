@@ -27,9 +27,10 @@ struct UsedParameter {
 /// One processed or dropped frame.
 struct FrameRecord {
   int index = 0;
-  double time_s = 0;     ///< the sequence's time stamp
-  bool dropped = false;  ///< real-time mode: never processed; all below is empty then
-  double start_s = 0;    ///< when it began to be acquired, since the first did
+  double time_s = 0;           ///< the sequence's time stamp
+  bool dropped = false;        ///< real-time mode: never processed; all below is empty then
+  double start_s = 0;          ///< when it began to be acquired, since the first did
+  double process_start_s = 0;  ///< when it began to be processed, on the same clock
   bool tracked = false;
   bool integrated = false;
   Pose T_start_camera = Pose::Identity();  ///< estimate in y-down axes, start camera = identity

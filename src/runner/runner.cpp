@@ -252,8 +252,10 @@ void run_frames(Source& source, System& system, FrameTimer& timer, const Clock& 
     const double start_s = next_start_s;
     acquired = reader.ahead() && index + 1 < total;
     if (acquired) reader.begin(index + 1);
+    const double process_start_s = clock.now_s() - first_s;
     record->frames.push_back(process(index, frame, system, timer));
     record->frames.back().start_s = start_s;
+    record->frames.back().process_start_s = process_start_s;
     if (acquired) acquire_next(index + 1);
     time.hold_during([&] {
       FrameRecord& done = record->frames.back();

@@ -42,10 +42,11 @@ struct Progress {
 };
 
 struct RunHooks {
-  std::function<void()> begin;                              ///< just before the first frame
-  std::function<void(const Progress&)> progress;            ///< after each frame
-  std::function<void(const FrameRecord&, System&)> images;  ///< after each rendered frame, untimed
-  const std::atomic<bool>* stop = nullptr;                  ///< set: end after this frame
+  std::function<void()> begin;                    ///< just before the first frame
+  std::function<void(const Progress&)> progress;  ///< after each frame
+  /// After each rendered frame, untimed. No frame is being read then: the source may be used.
+  std::function<void(const FrameRecord&, System&)> images;
+  const std::atomic<bool>* stop = nullptr;  ///< set: end after this frame
 };
 
 /// Throws InputError when no frame of the run has a pose in the ground truth at its time stamp: for

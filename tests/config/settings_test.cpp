@@ -10,6 +10,7 @@
 #include "config/nearest.h"
 #include "core/error.h"
 #include "datasets/source.h"
+#include "runner/runner.h"
 #include "slam/kinect_fusion.h"
 
 namespace slambench {
@@ -144,7 +145,8 @@ TEST_F(SettingsTest, AMissingFileIsNamed) {
 
 TEST_F(SettingsTest, EveryPresetFitsTheParameters) {
   SourceParameters source;
-  Settings settings({fusion_.describe(), backend_.describe(), source.describe()});
+  RunParameters run;
+  Settings settings({fusion_.describe(), backend_.describe(), source.describe(), run.describe()});
   for (const Preset& preset : preset_table()) {
     EXPECT_NO_THROW(settings.apply(preset)) << preset.name;
     EXPECT_FALSE(preset.sentence.empty());
@@ -160,13 +162,15 @@ TEST_F(SettingsTest, EveryPresetFitsTheParameters) {
 /// (1, 1, -1) of the volume, the map is flat, every kernel runs on its own).
 TEST_F(SettingsTest, Slambench1IsAsPublished) {
   SourceParameters source;
-  Settings settings({fusion_.describe(), backend_.describe(), source.describe()});
+  RunParameters run;
+  Settings settings({fusion_.describe(), backend_.describe(), source.describe(), run.describe()});
   settings.apply(find_preset("slambench1"));
   EXPECT_EQ(fusion_.light_m, (std::array<double, 3>{1, 1, -1}));
   EXPECT_EQ(fusion_.light_frame, "volume");
   EXPECT_EQ(fusion_.map, "grid");
   EXPECT_FALSE(fusion_.fused);
   EXPECT_EQ(source.icl_nuim_camera, "slambench1");
+  EXPECT_EQ(run.prefetch, "off") << "reading counts as acquiring on every machine";
 }
 
 TEST(Nearest, FindsWhatWasMeant) {

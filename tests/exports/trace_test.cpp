@@ -53,6 +53,20 @@ TEST_F(TraceTest, FramesBeginWhenTheyDidAndTakeWhatTheyTook) {
   EXPECT_EQ(frames[3].at("ts"), 1016e6);
 }
 
+/// As when frames are read ahead: pictures were saved between acquiring this one and its turn.
+TEST_F(TraceTest, ProcessingBeginsWhenItDid) {
+  Record record = single_record();
+  record.frames[1].process_start_s = 1005;
+  const Json all = trace({record});
+  const auto frames = slices(all, "frame"), stages = slices(all, "stage");
+  const Json acquire = stages[6], preprocess = stages[7], render = stages[11];
+  EXPECT_EQ(acquire.at("ts"), 1004e6);
+  EXPECT_EQ(preprocess.at("ts"), 1005e6);
+  EXPECT_EQ(begin(frames[1]), 1004e6);
+  EXPECT_EQ(end(frames[1]), end(render));
+  EXPECT_EQ(end(frames[1]), 1005e6 + 0.984375e6 - acquire.at("dur").get<double>());
+}
+
 TEST_F(TraceTest, StagesLieInFramesAndKernelsInStages) {
   const Json all = trace({single_record()});
   const auto frames = slices(all, "frame"), stages = slices(all, "stage"),

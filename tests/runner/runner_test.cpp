@@ -128,6 +128,7 @@ TEST_F(RunnerTest, AttributesTimeToTheFrameItWasSpentIn) {
     EXPECT_DOUBLE_EQ(frame.times.total_s(), frame_s);
   }
   EXPECT_EQ(record.frames[0].start_s, 0);
+  EXPECT_EQ(record.frames[0].process_start_s, testing::read_s);
   EXPECT_DOUBLE_EQ(record.frames[1].start_s, frame_s + 10 + 20) << "but the clock goes on";
   EXPECT_DOUBLE_EQ(record.wall_s, 2 * frame_s) << "hooks do not count";
 }
