@@ -251,7 +251,10 @@ void run_frames(Source& source, System& system, FrameTimer& timer, const Clock& 
     std::swap(frame, next);
     const double start_s = next_start_s;
     acquired = reader.ahead() && index + 1 < total;
-    if (acquired) reader.begin(index + 1);
+    if (acquired) {  // where the woken thread takes this one's turn, that is acquiring
+      const StageScope stage(&timer, Stage::acquire);
+      reader.begin(index + 1);
+    }
     const double process_start_s = clock.now_s() - first_s;
     record->frames.push_back(process(index, frame, system, timer));
     record->frames.back().start_s = start_s;

@@ -196,7 +196,7 @@ TEST_F(ReadAheadTest, GivesTheSystemTheSameFrames) {
   EXPECT_EQ(ahead.input_hash, plain.input_hash);
   EXPECT_EQ(ahead.frames.size(), plain.frames.size());
   for (const FrameRecord& frame : ahead.frames) {
-    EXPECT_EQ(frame.times.stage_calls[static_cast<std::size_t>(Stage::acquire)], 1);
+    EXPECT_EQ(frame.times.kernel_calls[static_cast<std::size_t>(Kernel::acquire)], 1);
     EXPECT_GT(frame.times.read_s, 0);
   }
 }
