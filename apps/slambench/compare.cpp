@@ -10,6 +10,7 @@
 #include "analysis/comparison.h"
 #include "commands.h"
 #include "io/files.h"
+#include "io/text.h"
 #include "limit_options.h"
 #include "terminal.h"
 
@@ -35,6 +36,16 @@ constexpr const char* footer =
     "  slambench compare coarse fine --allow volume-resolution --format markdown\n"
     "\n"
     "Exit status: 3 when the runs did not compute the same, 5 when a --fail-if holds.";
+
+/// A number between these; CLI11's own check takes NaN for one.
+CLI::Validator in_range(double least, double most) {
+  return {[=](const std::string& text) {
+            const auto value = parse_finite(text);
+            if (value && *value >= least && *value <= most) return std::string();
+            return fmt::format("found '{}', expected a number from {} to {}", text, least, most);
+          },
+          ""};
+}
 
 struct CompareArguments {
   std::string base, format = "text", output;
@@ -98,13 +109,13 @@ Action add_compare(CLI::App& command) {
       .add_option("--confidence", arguments->options.confidence,
                   "with which all intervals together hold (default 0.95)")
       ->type_name("X")
-      ->check(CLI::Range(0.5, 0.9999).description(""));
+      ->check(in_range(0.5, 0.9999));
   command
       .add_option("--tolerance", arguments->options.tolerance,
                   "accuracy that differs by no more than this part is the same, instead of 0.03 "
                   "or what docs/compare.md says of small ones; 0: only equal is the same")
       ->type_name("X")
-      ->check(CLI::Range(0.0, 1.0).description(""));
+      ->check(in_range(0, 1));
   command
       .add_option("--allow", arguments->allowed,
                   "compare although this differs: a parameter's name, or a place in record.json "

@@ -32,11 +32,13 @@ struct ExportArguments {
 };
 
 void require_place(const ExportArguments& arguments) {
-  if (arguments.out.empty() || !std::filesystem::exists(arguments.out)) return;
-  if (std::filesystem::is_directory(arguments.out)) {
+  std::error_code error;
+  const auto place = std::filesystem::status(arguments.out, error).type();
+  if (place == std::filesystem::file_type::directory) {
     throw UsageError(fmt::format("--out {}: found a folder, expected a file", arguments.out));
   }
-  if (arguments.force) return;
+  // Nothing of a device or a pipe is lost.
+  if (arguments.force || place != std::filesystem::file_type::regular) return;
   throw UsageError(fmt::format("--out {}: is there already; --force replaces it", arguments.out));
 }
 

@@ -182,14 +182,20 @@ void take_lock(const std::string& folder, SuiteLock* lock) {
   throw UsageError(folder + ": another suite is working in this folder");
 }
 
-std::string misfits_text(const std::vector<Misfit>& misfits) {
+std::string first_few(const std::vector<std::string>& texts) {
   constexpr std::size_t most = 3;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(most, misfits.size()); ++i) {
-    text += fmt::format("{}{} {}", i == 0 ? "" : "; ", misfits[i].path, misfits[i].reason);
+  const auto end = texts.begin() + static_cast<std::ptrdiff_t>(std::min(most, texts.size()));
+  const std::string text = fmt::format("{}", fmt::join(texts.begin(), end, "; "));
+  return texts.size() <= most ? text : fmt::format("{}; and {} more", text, texts.size() - most);
+}
+
+std::string misfits_text(const std::vector<Misfit>& misfits) {
+  std::vector<std::string> texts;
+  texts.reserve(misfits.size());
+  for (const Misfit& misfit : misfits) {
+    texts.push_back(fmt::format("{} {}", misfit.path, misfit.reason));
   }
-  if (misfits.size() > most) text += fmt::format("; and {} more", misfits.size() - most);
-  return text;
+  return first_few(texts);
 }
 
 /// Throws when there are results that another suite, build or machine made.
@@ -204,7 +210,7 @@ void require_own(const std::string& folder, const std::vector<Misfit>& foreign) 
 /// Results of an interrupted run are worth nothing; of one that is not valid they say why.
 void discard(const std::string& folder, const std::string& path) {
   std::error_code error;
-  if (!fs::exists(path, error)) return;
+  if (fs::symlink_status(path, error).type() != fs::file_type::directory) return;  // not ours
   bool complete = false;
   try {
     complete = read_stored_run(path).complete();
@@ -308,8 +314,9 @@ class SuiteRunner {
     } else {
       discard(folder_, path);
       if (interrupt.raised().load()) return;
-      failures_.push_back(run_name(of(run), run));
-      progress->fail(failure_text(outcome));
+      const std::string reason = failure_text(outcome);
+      failures_.push_back(fmt::format("{} ({})", run_name(of(run), run), reason));
+      progress->fail(reason);
     }
     if (outcome.status != 0 || run.repetition == 0) remove_suite_leftovers(folder_);
   }
@@ -365,10 +372,10 @@ void report(const SuitePlan& plan, const SuiteRunner& runner, const std::string&
     throw Error(ExitStatus::failed, fmt::format("{}", fmt::join(problems, "; ")));
   }
   if (!runner.failures().empty()) {
-    throw Error(ExitStatus::failed,
-                fmt::format("{} of {} runs failed: {}; the same command tries them again",
-                            runner.failures().size(), runner.runs().size(),
-                            fmt::join(runner.failures(), ", ")));
+    throw Error(
+        ExitStatus::failed,
+        fmt::format("{} of {} runs failed: {}; the same command tries them again",
+                    runner.failures().size(), runner.runs().size(), first_few(runner.failures())));
   }
 }
 

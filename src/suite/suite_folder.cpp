@@ -12,6 +12,7 @@
 #include <charconv>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "analysis/result_folders.h"
 #include "analysis/stored_run.h"
@@ -24,7 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* suite_name = "suite.json";
 constexpr const char* suite_format = "slambench-suite";
 constexpr int suite_version = 1;
 constexpr const char* warmup_folder = ".warm-up";
@@ -42,11 +42,11 @@ std::vector<fs::path> entries(const fs::path& folder) {
   return found;
 }
 
-/// What only a process that was killed leaves.
+/// What only a process that was killed leaves; hidden, as no configuration's folder is.
 bool is_leftover(const fs::path& path) {
   const std::string name = path.filename();
-  return name.ends_with(".slambench-partial") || name == warmup_folder ||
-         (name.starts_with(".slambench-") && name.ends_with(".tmp"));
+  return name.starts_with('.') && (name.ends_with(".slambench-partial") || name == warmup_folder ||
+                                   (name.starts_with(".slambench-") && name.ends_with(".tmp")));
 }
 
 Json as_json(const Configuration& configuration) {
@@ -78,6 +78,14 @@ std::vector<Configuration> read_suite(const std::string& file) {
     }
   } catch (const Json::exception& error) {
     throw InputError(fmt::format("{}: {}", file, error.what()));
+  }
+  std::set<std::string> folders;
+  for (const Configuration& c : configurations) {
+    if (is_folder_name(c.folder) && folders.insert(c.folder).second) continue;
+    throw InputError(
+        fmt::format("{}: folder: found '{}', expected a name that no other "
+                    "configuration has and no path",
+                    file, c.folder));
   }
   return configurations;
 }

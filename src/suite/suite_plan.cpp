@@ -16,21 +16,27 @@ namespace {
 
 using Lists = std::vector<ParameterList>;
 
+constexpr std::size_t most_combinations = 10'000;
+
+/// Room is left for numbers that tell folders apart.
+constexpr std::size_t longest_words = 120, longest_name = 160;
+
+bool is_plain(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+         c == '-' || c == '.';
+}
+
 std::string folder_name(const std::string& words) {
-  std::string name;
-  for (const char c : words) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       c == '_' || c == '-' || c == '.';
-    name += plain ? c : '-';
-  }
+  std::string name = words.substr(0, longest_words);
+  for (char& c : name) c = is_plain(c) ? c : '-';
   if (name.starts_with('.')) name.front() = '-';  // hidden folders hold no results
   return name;
 }
 
-/// The first free one of NAME, NAME-2, NAME-3, ...
-std::string unused_name(const std::string& name, const std::vector<Configuration>& used) {
+/// The first of NAME, NAME-2, NAME-3, ... that is not used; it is then.
+std::string unused_name(const std::string& name, std::set<std::string>* used) {
   std::string candidate = name;
-  for (int i = 2; std::ranges::find(used, candidate, &Configuration::folder) != used.end(); ++i) {
+  for (int i = 2; !is_folder_name(candidate) || !used->insert(candidate).second; ++i) {
     candidate = fmt::format("{}-{}", name, i);
   }
   return candidate;
@@ -108,10 +114,21 @@ bool advance(std::vector<std::size_t>* place, const std::vector<SuiteAxis>& axes
   return false;
 }
 
+void require_few(const SuiteFile& file, const std::vector<SuiteAxis>& axes, std::size_t before) {
+  std::size_t count = 1;
+  for (const SuiteAxis& axis : axes) {
+    count *= axis.values.size();
+    if (before + count <= most_combinations) continue;
+    throw InputError(fmt::format("{}: matrix: found {} combinations or more, expected at most {}",
+                                 file.path, before + count, most_combinations));
+  }
+}
+
 void add_combinations(const SuiteFile& file, const SuiteSequence& sequence, const SuiteGroup& group,
                       const SuiteSettings& overrides, const Lists& lists,
-                      std::vector<Configuration>* all) {
+                      std::set<std::string>* folders, std::vector<Configuration>* all) {
   const std::vector<SuiteAxis> axes = axes_of(file, group, overrides);
+  require_few(file, axes, all->size());
   std::vector<std::size_t> place(axes.size(), 0);
   do {
     Layers layers(lists);
@@ -133,20 +150,21 @@ void add_combinations(const SuiteFile& file, const SuiteSequence& sequence, cons
     configuration.sequence = sequence.path;
     layers.write_to(&configuration);
     const std::string words = variant.empty() ? sequence.name : sequence.name + " " + variant;
-    configuration.folder = unused_name(folder_name(words), *all);
+    configuration.folder = unused_name(folder_name(words), folders);
     all->push_back(std::move(configuration));
   } while (advance(&place, axes));
 }
 
 void require_different(const SuiteFile& file, const std::vector<Configuration>& all) {
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!all[i].computes_the_same_as(all[j])) continue;
-      throw InputError(
-          fmt::format("{}: {} and {} are the same runs: found equal settings, expected groups and "
-                      "sequences that differ",
-                      file.path, all[j].folder, all[i].folder));
-    }
+  std::map<std::vector<std::string>, std::string> folders;  // by all that is computed
+  for (const Configuration& configuration : all) {
+    const auto [other, is_new] =
+        folders.emplace(run_arguments(configuration), configuration.folder);
+    if (is_new) continue;
+    throw InputError(
+        fmt::format("{}: {} and {} are the same runs: found equal settings, expected groups and "
+                    "sequences that differ",
+                    file.path, other->second, configuration.folder));
   }
 }
 
@@ -170,6 +188,11 @@ std::string with_environment(
 }
 
 }  // namespace
+
+bool is_folder_name(const std::string& name) {
+  return !name.empty() && name.size() <= longest_name && !name.starts_with('.') &&
+         name != suite_name && std::ranges::all_of(name, is_plain);
+}
 
 std::optional<std::string> Configuration::value(std::string_view parameter) const {
   const auto it = std::ranges::find(assignments, parameter, &ConfigAssignment::name);
@@ -208,12 +231,13 @@ std::vector<std::string> resolve_sequences(
 std::vector<Configuration> configurations(const SuiteFile& file, const SuiteSettings& overrides,
                                           const Lists& lists) {
   std::vector<Configuration> all;
+  std::set<std::string> folders;
   for (const SuiteSequence& sequence : file.sequences) {
     for (const SuiteGroup& group : file.groups) {
       const bool wanted =
           group.sequences.empty() ||
           std::ranges::find(group.sequences, sequence.name) != group.sequences.end();
-      if (wanted) add_combinations(file, sequence, group, overrides, lists, &all);
+      if (wanted) add_combinations(file, sequence, group, overrides, lists, &folders, &all);
     }
   }
   require_different(file, all);

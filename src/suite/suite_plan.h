@@ -12,6 +12,13 @@
 
 namespace slambench {
 
+/// The description of a suite in its folder.
+inline constexpr const char* suite_name = "suite.json";
+
+/// Whether a configuration's folder can have this name: letters, digits, '_', '-' and '.', not
+/// hidden, not that of suite.json, and short enough for any file system.
+bool is_folder_name(const std::string& name);
+
 /// One cell of the matrix: what is run, as often as it says.
 struct Configuration {
   std::string folder;         ///< of its runs, in that of the suite: no other has the same

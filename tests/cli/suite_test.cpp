@@ -181,11 +181,48 @@ TEST_F(SuiteTest, AFailedRunIsToldAndTriedAgainAndTheOthersGoOn) {
     EXPECT_EQ(outcome.status, 1);
     EXPECT_THAT(outcome.out, HasSubstr("small.raw-bad/1                        failed: status 2: "
                                        "--device: found 'none'"));
-    EXPECT_THAT(outcome.err, HasSubstr(attempt == 0 ? "1 of 2 runs failed: small.raw-bad/1; the"
-                                                    : "1 of 1 runs failed: small.raw-bad/1; the"));
+    EXPECT_THAT(
+        outcome.err,
+        HasSubstr(attempt == 0 ? "1 of 2 runs failed: small.raw-bad/1 (status 2: --device"
+                               : "1 of 1 runs failed: small.raw-bad/1 (status 2: --device"));
     EXPECT_THAT(folders(), ElementsAre("small.raw-good/1"));
     EXPECT_THAT(hidden(), IsEmpty());
   }
+}
+
+TEST_F(SuiteTest, QuietSaysWhyRunsFail) {
+  suite("sequence = 'small.raw'\n[matrix]\nbackend = ['serial']\nmap = ['grid']\n");
+  fs::create_directories(path("out"));
+  write("out/suite.json", R"({"format": "slambench-suite", "version": 1, "title": "",
+                             "configurations": []})");
+  write("out/small.raw", "a file of the user's");
+  const testing::Outcome outcome = run({"--quiet"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("1 of 1 runs failed: small.raw/1 (status 1: "),
+                                 HasSubstr("small.raw")));
+  EXPECT_EQ(file("out/small.raw"), "a file of the user's");
+}
+
+TEST_F(SuiteTest, ASequenceMayHaveTheNameOfALeftover) {
+  suite("[[sequence]]\npath = 'small.raw'\nname = 'a.slambench-partial'\n");
+  ASSERT_EQ(run().status, 0);
+  EXPECT_EQ(run().status, 0);
+  EXPECT_EQ(folders(), Arguments{"a.slambench-partial/1"});
+}
+
+TEST_F(SuiteTest, FoldersOfSuiteJsonDoNotLeadElsewhere) {
+  ASSERT_EQ(run().status, 0);
+  const std::string written = file("out/suite.json");
+  for (const char* folder : {"../escaped", "small.raw-openmp"}) {
+    std::string text = written;
+    const std::string from = "\"folder\": \"small.raw-serial\"";
+    text.replace(text.find(from), from.size(), fmt::format("\"folder\": \"{}\"", folder));
+    write("out/suite.json", text);
+    const testing::Outcome outcome = run();
+    EXPECT_EQ(outcome.status, 3) << folder;
+    EXPECT_THAT(outcome.err, HasSubstr(fmt::format("suite.json: folder: found '{}'", folder)));
+  }
+  EXPECT_EQ(folders(), all_four);
 }
 
 TEST_F(SuiteTest, DryRunPrintsCommandsAndChangesNothing) {

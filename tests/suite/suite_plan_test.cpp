@@ -111,6 +111,27 @@ TEST_F(SuitePlanTest, FoldersDifferEvenWhereNamesDoNotAndAreNeverHidden) {
               ElementsAre("a-b", "a-b-2", "-c"));
 }
 
+TEST_F(SuitePlanTest, FoldersAreNoFilesOfTheSuiteAndNotTooLong) {
+  const auto all = plan(fmt::format("sequence = ['suite.json', '{}', '{}']\n",
+                                    std::string(300, 'a'), std::string(299, 'a')));
+  for (const std::string& folder : folders(all)) EXPECT_TRUE(is_folder_name(folder)) << folder;
+  EXPECT_EQ(all[0].folder, "suite.json-2");
+  EXPECT_EQ(all[2].folder, all[1].folder + "-2");
+  for (const char* name : {"", ".", "..", ".a", "../a", "a/b", "suite.json"}) {
+    EXPECT_FALSE(is_folder_name(name)) << name;
+  }
+}
+
+TEST_F(SuitePlanTest, AMatrixIsOfAReasonableSize) {
+  std::string values = "1";
+  for (int i = 2; i <= 101; ++i) values += fmt::format(", {}", i);
+  EXPECT_THAT(
+      error(fmt::format("sequence = 'a'\n[matrix]\ntracking-rate = [{0}]\n"
+                        "integration-rate = [{0}]\n",
+                        values)),
+      HasSubstr("a.toml: matrix: found 10201 combinations or more, expected at most 10000"));
+}
+
 TEST_F(SuitePlanTest, RunsTakeTurns) {
   const auto all = plan(
       "sequence = 's'\n"
