@@ -17,6 +17,9 @@ namespace {
 /// Fewer pairs leave too little to estimate their scatter from.
 constexpr std::size_t least_pairs = 6;
 
+/// An interval whose ends are further apart than this factor tells nothing.
+constexpr double widest = 1000;
+
 /// One figure in all runs of a group, repeats of a run included; empty when one does not have it.
 std::vector<double> values(const NamedFigure& figure, const RunGroup& group) {
   std::vector<double> list;
@@ -139,7 +142,10 @@ Verdict verdict_of(const FigureComparison& c, bool exact, Evidence evidence, Tol
   if (exact) return tolerated ? Verdict::tolerated : direction(c.base, c.other);
   if (c.base == c.other) return Verdict::no_difference;
   if (!c.interval) return tolerated ? Verdict::tolerated : Verdict::unclear;
-  if (c.interval->contains_one()) return Verdict::no_difference;
+  if (c.interval->contains_one()) {
+    const bool tells = evidence == Evidence::frames || c.interval->high < widest * c.interval->low;
+    return tells ? Verdict::no_difference : Verdict::too_few_runs;
+  }
   if (tolerated) return Verdict::tolerated;
   return evidence == Evidence::frames ? Verdict::unclear : direction(c.base, c.other);
 }
@@ -264,6 +270,8 @@ std::string verdict_text(const FigureComparison& comparison) {
       return "within tolerance";
     case Verdict::no_difference:
       return "no difference shown";
+    case Verdict::too_few_runs:
+      return "too few runs to tell";
     case Verdict::unclear:
       return "repeat to tell";
     case Verdict::lower:

@@ -18,6 +18,7 @@ enum class Verdict {
   same,           ///< equal, of a figure that does not scatter
   tolerated,      ///< differ, by less than the figure's tolerance
   no_difference,  ///< the interval holds 1, or there is none
+  too_few_runs,   ///< it does, and is so wide that it tells nothing
   unclear,        ///< the single runs differ, and nobody knows how much two runs do
   lower,
   higher,

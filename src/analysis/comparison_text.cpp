@@ -100,16 +100,17 @@ ValueTexts value_texts(const FigureComparison& c) {
   return texts;
 }
 
-std::string ratio_text(const FigureComparison& c) {
-  return c.ratio ? fmt::format("{:.3f}", *c.ratio) : "";
+/// A ratio, or an end of its interval.
+std::string factor_text(double factor) {
+  if (factor >= 1e4 || factor < 1e-3) return fmt::format("{:.1e}", factor);
+  return fmt::format("{:.{}f}", factor, factor >= 100 ? 0 : (factor >= 10 ? 1 : 3));
 }
 
+std::string ratio_text(const FigureComparison& c) { return c.ratio ? factor_text(*c.ratio) : ""; }
+
 std::string interval_text(const FigureComparison& c) {
-  if (!c.interval) return "";
-  const auto limit = [](double v) {
-    return fmt::format("{:.{}f}", v, v >= 100 ? 0 : (v >= 10 ? 1 : 3));
-  };
-  return fmt::format("{} to {}", limit(c.interval->low), limit(c.interval->high));
+  if (!c.interval || c.verdict == Verdict::too_few_runs) return "";
+  return fmt::format("{} to {}", factor_text(c.interval->low), factor_text(c.interval->high));
 }
 
 /// A figure's name without what its part of the table says of all.
@@ -200,8 +201,8 @@ std::vector<std::string> notes(const Comparison& c) {
 
 std::string row(std::string_view label, std::string_view base, std::string_view other,
                 std::string_view ratio, std::string_view interval, std::string_view verdict) {
-  std::string line =
-      fmt::format("{:<20}{:>9}{:>9}{:>7}{:>15} {}", label, base, other, ratio, interval, verdict);
+  std::string line = fmt::format("{:<20} {:>8} {:>8} {:>6} {:>14} {}", label, base, other, ratio,
+                                 interval, verdict);
   line.erase(line.find_last_not_of(' ') + 1);
   return line + "\n";
 }

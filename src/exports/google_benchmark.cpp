@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -27,6 +28,14 @@ struct Configuration {
   std::string name;
   std::vector<const StoredRun*> runs;
 };
+
+/// A command for a shell that exports one run by itself.
+std::string command_for(const ExportRun& each) {
+  std::string file = each.name;
+  std::replace(file.begin(), file.end(), '/', '-');
+  return fmt::format("slambench export '{}' --format google-benchmark -o '{}.json'",
+                     std::filesystem::path(each.run.path).parent_path().string(), file);
+}
 
 void require_result(const ExportRun& each) {
   const char* what = !each.run.complete() ? "was interrupted" : "is not valid";
@@ -56,8 +65,8 @@ std::vector<Configuration> configurations(const std::vector<ExportRun>& runs,
     if (differ.empty()) continue;
     throw InputError(fmt::format(
         "{} and {} would have the same names in one file and are no repeats of one another: they "
-        "differ in {}; export them to files of their own",
-        it->runs.front()->path, each.run.path, list_text(differ)));
+        "differ in {}; export them to files of their own: {}",
+        it->runs.front()->path, each.run.path, list_text(differ), command_for(each)));
   }
   return all;
 }
@@ -71,15 +80,14 @@ std::string entry_name(const NamedFigure& figure) {
   return name;
 }
 
-/// A run's figures that are no times, as counters of an entry; of its `repeat`, or of the one run
-/// that they are known of.
+/// A run's figures that are no times, as counters of an entry of its `repeat`. Those that are not
+/// known of every repeat are left out.
 void add_counters(const StoredRun& run, std::size_t repeat, Json* entry) {
   for (const NamedFigure& figure : figure_table()) {
     if (figure.unit == "s") continue;
     const std::vector<double> values = values_of(figure.place, run);
-    if (values.empty()) continue;
-    (*entry)[figure.name == "fps" ? "items_per_second" : figure.name] =
-        values[std::min(repeat, values.size() - 1)];
+    if (values.size() != run.run_count()) continue;
+    (*entry)[figure.name == "fps" ? "items_per_second" : figure.name] = values[repeat];
   }
 }
 
@@ -87,16 +95,15 @@ Json entry_of(const std::string& name, const StoredRun& run, double seconds) {
   const auto number = [&](const char* place) {
     return static_cast<long>(value_of(place, run).value_or(0));
   };
-  return {{"name", name},
-          {"run_name", name},
-          {"run_type", "iteration"},
-          {"threads", std::max(1L, number("provenance.threads"))},
-          {"iterations", number("time.measured_frames")},
-          {"real_time", seconds * 1e3},
-          {"cpu_time", seconds * 1e3},
-          {"time_unit", "ms"},
-          {"label",
-           fmt::format("{} on {}", run.text("provenance.backend"), run.text("provenance.device"))}};
+  Json entry = {{"name", name}, {"run_name", name}, {"run_type", "iteration"}};
+  if (const long threads = number("provenance.threads"); threads > 0) entry["threads"] = threads;
+  entry["iterations"] = number("time.measured_frames");
+  entry["real_time"] = seconds * 1e3;
+  entry["cpu_time"] = seconds * 1e3;
+  entry["time_unit"] = "ms";
+  entry["label"] =
+      fmt::format("{} on {}", run.text("provenance.backend"), run.text("provenance.device"));
+  return entry;
 }
 
 /// One entry a repetition; none where no run has the figure.
@@ -107,7 +114,9 @@ void add_entries(const Configuration& of, const NamedFigure& figure, std::size_t
     const std::vector<double> values = values_of(figure.place, *run);
     for (std::size_t i = 0; i < values.size(); ++i) {
       Json entry = entry_of(fmt::format("{}/{}", of.name, entry_name(figure)), *run, values[i]);
-      if (figure.name == "computation_s") add_counters(*run, i, &entry);
+      if (figure.name == "computation_s" && values.size() == run->run_count()) {
+        add_counters(*run, i, &entry);
+      }
       entries.push_back(std::move(entry));
     }
   }

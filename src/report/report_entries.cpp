@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -44,13 +45,33 @@ std::vector<Group> groups_of(std::vector<ReportRun> runs, const ParameterRoles& 
   return groups;
 }
 
-/// The places of figures that a report shows with an interval, with their units.
+/// Figures that a report shows beside those with a name: how their places begin and end.
+struct UnnamedFigures {
+  std::string_view head, tail;
+  const char* unit;
+};
+constexpr std::array<UnnamedFigures, 11> unnamed_figures{{
+    {"energy.", ".joules", "J"},
+    {"energy.", ".joules_per_frame", "J"},
+    {"energy.", ".mean_w", "W"},
+    {"energy.", ".peak_w", "W"},
+    {"energy.", ".idle_w", "W"},
+    {"energy.", ".energy_delay_js", "J s"},
+    {"energy.", ".joules_above_idle", "J"},
+    {"counters.stages.", "", ""},
+    {"time.transfers.", ".seconds_per_frame", "s"},
+    {"time.computation_s", ".p95", "s"},
+    {"accuracy.slambench1_ate_m", ".max", "m"},
+}};
+
+/// The places of figures of which a report shows the median of repeated runs, with their units.
 std::map<std::string, std::string> shown_places(const StoredRun& run) {
   std::map<std::string, std::string> places;
   for (const NamedFigure& figure : figure_table()) places[figure.place] = figure.unit;
-  constexpr std::string_view head = "energy.rails.", tail = ".joules_per_frame";
   for (const auto& [place, value] : run.numbers) {
-    if (place.starts_with(head) && place.ends_with(tail)) places.emplace(place, "J");
+    for (const auto& [head, tail, unit] : unnamed_figures) {
+      if (place.starts_with(head) && place.ends_with(tail)) places.emplace(place, unit);
+    }
   }
   return places;
 }
@@ -86,8 +107,33 @@ Json repetition_json(const Group& group) {
   return {{"runs", repetition.runs}, {"figures", figures}};
 }
 
+/// The number at a place ("energy.rails.A15.joules"); nullptr when there is none. Names may hold
+/// dots themselves.
+Json* number_at(Json* json, std::string_view place) {
+  if (!json->is_object()) return nullptr;
+  for (auto it = json->begin(); it != json->end(); ++it) {
+    if (!place.starts_with(it.key())) continue;
+    const std::string_view rest = place.substr(it.key().size());
+    if (rest.empty()) return it->is_number() ? &*it : nullptr;
+    if (!rest.starts_with('.')) continue;
+    if (Json* found = number_at(&*it, rest.substr(1))) return found;
+  }
+  return nullptr;
+}
+
+/// Of repeated runs: the medians over all of them in place of the figures of one.
+void put_medians(Json* record) {
+  const Json repetition = record->value("repetition", Json::object());
+  if (!repetition.is_object()) return;
+  const Json figures = repetition.value("figures", Json::object());
+  for (const auto& [place, figure] : figures.items()) {
+    if (!figure.is_object() || !figure.contains("median")) continue;
+    if (Json* shown = number_at(record, place)) *shown = figure.at("median");
+  }
+}
+
 /// The one in the middle, which stands for all.
-ReportRun entry_of(Group group) {
+ReportRun middle_of(Group group) {
   if (group.size() == 1) return std::move(group.front());
   std::vector<Figures> times;
   for (const ReportRun& run : group) {
@@ -97,6 +143,12 @@ ReportRun entry_of(Group group) {
   ReportRun& middle = group[median_run(times, time_place)];
   middle.record["repetition"] = repetition_json(group);
   return std::move(middle);
+}
+
+ReportRun entry_of(Group group) {
+  ReportRun entry = middle_of(std::move(group));
+  put_medians(&entry.record);
+  return entry;
 }
 
 /// The folder that a run's folder lies in.

@@ -172,7 +172,11 @@ void put_measured(const TimeFigures& figures, Json* json, Reasons* absent) {
   }
   (*json)["stages"] = stages;
   (*json)["kernels"] = kernels;
-  if (!figures.transfers.empty()) (*json)["transfers"] = transfers_json(figures.transfers);
+  if (!figures.transfers.empty()) {
+    (*json)["transfers"] = transfers_json(figures.transfers);
+  } else {
+    explain(absent, "time.transfers", "none was measured: backends in host memory have none");
+  }
 }
 
 Json time_json(const Record& r, Reasons* absent) {
@@ -195,7 +199,8 @@ Json time_json(const Record& r, Reasons* absent) {
   if (figures.measured_frames > 0) {
     put_measured(figures, &json, absent);
   } else {
-    for (const char* key : {"computation_s", "total_s", "read_s", "stages", "kernels"}) {
+    for (const char* key :
+         {"computation_s", "total_s", "read_s", "stages", "kernels", "transfers"}) {
       explain(absent, fmt::format("time.{}", key), "no frame was processed after the warm-up");
     }
   }

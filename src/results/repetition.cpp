@@ -36,7 +36,10 @@ void add_times(const Record& record, Collector* to) {
   to->add("time.fps_wall", "frames/s", times.fps_wall);
   if (times.measured_frames == 0) return;
   to->add("time.computation_s.mean", "s", times.computation_s.mean, times.computation_s.std);
+  to->add("time.computation_s.p95", "s", times.computation_s.p95);
+  to->add("time.computation_s.p99", "s", times.computation_s.p99);
   to->add("time.total_s.mean", "s", times.total_s.mean, times.total_s.std);
+  to->add("time.read_s.mean", "s", times.read_s.mean, times.read_s.std);
   for (const StageFigures& stage : times.stages) {
     to->add(fmt::format("time.stages.{}.seconds_per_frame", name(stage.stage)), "s",
             stage.seconds.per_frame, stage.seconds.when_it_ran.std);
@@ -55,6 +58,9 @@ void add_energy(const std::string& place, const EnergyFigures& energy, Collector
   to->add(place + ".joules", "J", energy.joules);
   to->add(place + ".joules_per_frame", "J/frame", energy.joules_per_frame);
   to->add(place + ".mean_w", "W", energy.mean_w);
+  to->add(place + ".peak_w", "W", energy.peak_w);
+  to->add(place + ".idle_w", "W", energy.idle_w);
+  to->add(place + ".energy_delay_js", "J s", energy.energy_delay_js);
   to->add(place + ".joules_above_idle", "J", energy.joules_above_idle);
 }
 
@@ -84,11 +90,37 @@ void add_counters(const CounterMeasurement& counters, Collector* to) {
   }
 }
 
-void add_accuracy(const TrajectoryFigures& accuracy, Collector* to) {
-  for (const auto& [alignment, errors] : accuracy.ate_m) {
-    if (errors.count == 0) continue;
-    to->add(fmt::format("accuracy.over_processed.ate_m.{}.rmse", alignment), "m", errors.rmse);
+void add_errors(const std::string& place, const char* unit, const Statistics& errors,
+                Collector* to) {
+  if (errors.count == 0) return;
+  to->add(place + ".rmse", unit, errors.rmse);
+  to->add(place + ".mean", unit, errors.mean);
+  to->add(place + ".max", unit, errors.max);
+}
+
+void add_accuracy(const Record& record, Collector* to) {
+  if (record.slambench1_ate_m) {
+    add_errors("accuracy.slambench1_ate_m", "m", *record.slambench1_ate_m, to);
   }
+  if (!record.over_processed) return;
+  const TrajectoryFigures& figures = *record.over_processed;
+  const std::string place = "accuracy.over_processed";
+  for (const auto& [alignment, errors] : figures.ate_m) {
+    add_errors(fmt::format("{}.ate_m.{}", place, alignment), "m", errors, to);
+  }
+  add_errors(place + ".rpe_translation_m", "m", figures.rpe_translation_m, to);
+  add_errors(place + ".rpe_rotation_deg", "deg", figures.rpe_rotation_deg, to);
+}
+
+void add_frames(const Record& record, Collector* to) {
+  const FrameCounts counts = frame_counts(record);
+  const auto add = [&](const char* place, std::size_t count) {
+    to->add(place, "", static_cast<double>(count));
+  };
+  add("frames.processed", counts.processed);
+  add("frames.tracked", counts.tracked);
+  add("frames.lost", counts.lost.size());
+  add("frames.dropped", counts.dropped.size());
 }
 
 RepeatedFigure repeated(const std::vector<Figures>& runs, const std::string& place) {
@@ -133,7 +165,8 @@ std::map<std::string, Figure> run_figures(const Record& record) {
   }
   add_memory(record, &figures);
   if (record.measurements.counters) add_counters(*record.measurements.counters, &figures);
-  if (record.over_processed) add_accuracy(*record.over_processed, &figures);
+  add_accuracy(record, &figures);
+  add_frames(record, &figures);
   return std::move(figures).take();
 }
 

@@ -55,6 +55,13 @@ void identify(const Record& r, const FrameCounts& counts, Page* page) {
   page->wrapped("sizes", sizes);
 }
 
+/// Of repeated runs: which one the tables below show.
+void tell_shown_run(const Repetition& repetition, Page* page) {
+  if (repetition.runs < 2) return;
+  page->gap();
+  page->line(fmt::format("run {} of {}", repetition.shown_run, repetition.runs), Look::heading);
+}
+
 void list_kernels(const TimeFigures& figures, Page* page) {
   page->gap();
   page->line(fmt::format("{:<18}{:>13}{:>10}{:>14}{:>13}", "kernel", "ms a frame", "share",
@@ -240,6 +247,7 @@ std::string summary_text(const Record& record, std::string_view folder, bool col
   const TimeFigures figures = time_figures(record);
   identify(record, counts, &page);
   if (figures.measured_frames > 0) {
+    tell_shown_run(record.repetition, &page);
     list_kernels(figures, &page);
     list_stages(figures, &page);
     list_transfers(figures, &page);

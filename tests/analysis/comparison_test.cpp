@@ -19,6 +19,7 @@ namespace slambench {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -290,6 +291,21 @@ TEST(CompareDocuments, AreOf80ColumnsAndEqualInAllFormats) {
             1 + c.figures.size());
   EXPECT_THAT(csv, HasSubstr("base,other,10,10,kernel_raycast_s,s,"));
   EXPECT_THAT(csv, HasSubstr(",pairs,slower\r\n"));
+}
+
+TEST(CompareText, KeepsColumnsApartHoweverLargeARatioIs) {
+  NoisyMachine machine(1);
+  const auto group = [&](double first, double second) {
+    return RunGroup{"g", {stored(machine.run(first)), stored(machine.run(second))}};
+  };
+  const ComparisonOptions one{.figures = {"kernel_raycast_s"}};
+  const Comparison large = compare(group(1, 1), group(1e6, 1e6), one);
+  EXPECT_THAT(comparison_text({large}),
+              ContainsRegex(" raycast +[0-9.e+]+ +[0-9.e+]+ [0-9.]+e\\+0[56] "
+                            "[0-9.]+e\\+0[0-9] to [0-9.]+e\\+0[0-9] slower\n"));
+  const Comparison wide = compare(group(1, 1), group(1, 1e6), one);
+  EXPECT_THAT(comparison_text({wide}), ContainsRegex(" raycast .* too few runs to tell\n"));
+  EXPECT_GT(figure(wide, "kernel_raycast_s").interval->high, 1e6) << "the documents have it";
 }
 
 TEST(RunGroupTest, ReadsFoldersFilesAndLists) {

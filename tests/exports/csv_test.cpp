@@ -7,6 +7,7 @@
 #include "analysis/figure.h"
 #include "exports/exported.h"
 #include "io/text.h"
+#include "results/repetition.h"
 
 namespace slambench {
 namespace {
@@ -51,6 +52,17 @@ TEST(WideCsv, HasARowARunAndAColumnAFigureAndParameter) {
   EXPECT_EQ(rows[1].at("backend.device"), "a \"fast\" one, or not");
   EXPECT_EQ(rows[0].at("backend.device"), "") << "the run has no such parameter";
   for (const NamedFigure& figure : figure_table()) EXPECT_TRUE(rows[0].contains(figure.name));
+}
+
+TEST(Figures, OfARunAreKnownOfEveryRepeat) {
+  const testing::TemporaryFolder folder;
+  Record record = testing::sample_record();
+  record.measurements.memory.device_bytes = 1 << 20;
+  record.repetition = repetition_of({run_figures(record), run_figures(record)});
+  const StoredRun run = exported(folder, {record}).front().run;
+  for (const NamedFigure& figure : figure_table()) {
+    EXPECT_NE(values_of(figure.place, run).size(), 1U) << figure.name;
+  }
 }
 
 TEST(LongCsv, HasARowAValueAndTheReasonOfWhatIsNotThere) {

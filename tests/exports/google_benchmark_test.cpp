@@ -72,10 +72,18 @@ TEST_F(GoogleBenchmarkTest, RepeatedRunsAreRepetitions) {
   const auto computation = entries(json, "kt3/computation");
   ASSERT_EQ(computation.size(), 4U) << "three in one record, and another run";
   EXPECT_EQ(computation[1].at("real_time"), 1250);
+  EXPECT_FALSE(computation[0].contains("frame_energy_j")) << "known of one repeat of three";
+  EXPECT_TRUE(computation[3].contains("frame_energy_j"));
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(computation[i].at("repetitions"), 4);
     EXPECT_EQ(computation[i].at("repetition_index"), i);
   }
+}
+
+TEST_F(GoogleBenchmarkTest, HasNoThreadsWhereTheRecordHasNone) {
+  Record record = single_record();
+  record.provenance.threads = 0;
+  EXPECT_FALSE(entries(document({record}), "kt3/computation").at(0).contains("threads"));
 }
 
 TEST_F(GoogleBenchmarkTest, BackendsAreNamedWhereThereAreSeveral) {
@@ -93,7 +101,8 @@ TEST_F(GoogleBenchmarkTest, RefusesWhatWouldBeMixedUpOrDoesNotCount) {
   EXPECT_THAT(
       refusal({single_record(), other}),
       AllOf(HasSubstr("r0"), HasSubstr("r1"), HasSubstr("volume-size (5,5,5 against 4,4,4)"),
-            HasSubstr("files of their own")));
+            HasSubstr("files of their own: slambench export '" + folder_.path("r1") +
+                      "' --format google-benchmark -o 'r1.json'")));
   other = single_record();
   other.complete = false;
   EXPECT_THAT(refusal({other}), HasSubstr("was interrupted"));

@@ -117,6 +117,8 @@ TEST_F(BrowserTest, ShowsTheFiguresOfTheRecord) {
     Json value = record;
     std::istringstream keys(figure.place);
     for (std::string key; std::getline(keys, key, '.');) value = value.at(key);
+    const Json& medians = record.at("repetition").at("figures");
+    if (medians.contains(figure.place)) value = medians.at(figure.place).at("median");
     EXPECT_EQ(std::stod(figure.value), value.get<double>()) << figure.place;
     const auto factor = factors.find(figure.place);
     const double expected = value.get<double>() * (factor == factors.end() ? 1 : factor->second);

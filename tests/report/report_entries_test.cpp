@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #include "report/report_entries.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "report/report_data.h"
@@ -57,6 +58,31 @@ TEST_F(ReportEntriesTest, RepeatsAreOneEntryWithTheMiddleRun) {
   EXPECT_EQ(time.at("high"), 4 * 15 / 32.0);
   EXPECT_TRUE(repetition.at("figures").contains("energy.rails.package-0.joules_per_frame"));
   EXPECT_EQ(found.runs[1].record, runs_[3].record) << "a single run is as it was";
+}
+
+TEST_F(ReportEntriesTest, FiguresOfRepeatsAreMedians) {
+  for (const double scale : {4, 1, 2, 3}) add(fmt::format("s/{}", scale), run(scale));
+  const ReportRun entry = entries().runs.at(0);
+  EXPECT_EQ(entry.folder, folder_.path("s/2")) << "of two in the middle the faster";
+  const auto& time = entry.record.at("time");
+  EXPECT_EQ(time.at("computation_s").at("mean"), 2.5 * 15 / 32);
+  EXPECT_EQ(time.at("stages").at("track").at("seconds_per_frame"), 2.5 / 16);
+  EXPECT_EQ(time.at("kernels").at("track").at("seconds_per_frame"), 2.5 / 16);
+}
+
+TEST_F(ReportEntriesTest, FiguresOfRepeatsWithinARecordAreMedians) {
+  Record record = run(2);
+  record.repetition = testing::sample_repetition();
+  record.measurements.energy->rails[0].name = "cpu.big";
+  RepeatedFigure& joules = record.repetition.figures["energy.rails.cpu.big.joules"];
+  joules.values = {1, 2, 9};
+  joules.median = 2;
+  add("s", record);
+  for (const bool together : {true, false}) {
+    const auto shown = entries(together).runs.at(0).record;
+    EXPECT_EQ(shown.at("time").at("computation_s").at("mean"), 1.25);
+    EXPECT_EQ(shown.at("energy").at("rails").at("cpu.big").at("joules"), 2);
+  }
 }
 
 TEST_F(ReportEntriesTest, EachRunStandsAloneWhenAskedFor) {

@@ -41,6 +41,9 @@ TEST(RunFigures, StandUnderTheirPlacesInTheRecord) {
   EXPECT_DOUBLE_EQ(figures.at("memory.map_bytes").value, 64 << 20);
   EXPECT_DOUBLE_EQ(figures.at("memory.peak_resident_bytes").value, 512 << 20);
   EXPECT_DOUBLE_EQ(figures.at("accuracy.over_processed.ate_m.se3.rmse").value, 0.001);
+  EXPECT_DOUBLE_EQ(figures.at("accuracy.slambench1_ate_m.max").value, 0.0207);
+  EXPECT_DOUBLE_EQ(figures.at("time.read_s.mean").value, 8. / 3 / 128);
+  EXPECT_EQ(figures.at("frames.tracked").value, 2);
   EXPECT_THAT(figures, Not(Contains(Key("memory.device_bytes")))) << "not measured";
   EXPECT_THAT(figures, Not(Contains(Key("time.kernels.solve.seconds_per_frame"))))
       << "never called";

@@ -23,6 +23,8 @@ TEST(SummaryText, IsTheLiteralTextOfASmallRecord) {
 device      A CPU, threads: 3, AVX2
 sizes       input 640x480, computation 320x240, volume 256x256x256 in 5x5x5 m
 
+run 2 of 3
+
 kernel               ms a frame     share   calls/frame    ms a call
 acquire                  41.667         -          1.00       41.667
 mm2meters                83.333     6.7 %          1.00       83.333

@@ -150,11 +150,13 @@ TEST(RecordJson, HoldsTheFigures) {
   EXPECT_EQ(document["sequence"]["ground_truth_hash"], "ffeeddccbbaa99887766554433221100");
   EXPECT_EQ(document["time"]["kernels"]["track"]["seconds_per_frame"], 8 / 3.0 / 16);
   EXPECT_EQ(document["time"]["kernels"]["track"]["seconds"]["count"], 3);
-  EXPECT_EQ(document["absent"], (json{{"counters", "no permission"},
-                                      {"energy.rails.dram", "No such file or directory"},
-                                      {"memory.device_bytes", "computes in host memory"},
-                                      {"repetition.figures.time.kernels.reduce.seconds_per_frame",
-                                       "not measured in every run"}}));
+  EXPECT_EQ(document["absent"],
+            (json{{"counters", "no permission"},
+                  {"energy.rails.dram", "No such file or directory"},
+                  {"memory.device_bytes", "computes in host memory"},
+                  {"repetition.figures.time.kernels.reduce.seconds_per_frame",
+                   "not measured in every run"},
+                  {"time.transfers", "none was measured: backends in host memory have none"}}));
 }
 
 TEST(RecordJson, HoldsWhatTheMetersRead) {
@@ -302,6 +304,9 @@ TEST(RecordJson, HasTransfersWhereThereWereAnyAndAddsThemToNothing) {
   EXPECT_EQ(to_host["count_per_frame"], 2);
   EXPECT_EQ(to_host["bytes_per_frame"], 256);
   document["time"].erase("transfers");
+  const json& reason = without["absent"]["time.transfers"];
+  EXPECT_THAT(reason.get<std::string>(), HasSubstr("host memory"));
+  document["absent"]["time.transfers"] = reason;
   EXPECT_EQ(document, without);
 }
 

@@ -39,7 +39,7 @@ function overview() {
   const one = runs.length === 1;
   return [one ? element("div", {class: "cards"}, ...figures.map((figure) => card(runs[0].record, figure))) : comparisonTable(),
           one ? null : caption("Bold: the best of each figure among runs of the same frames. A dash: not measured; hover for the reason." +
-                               (runs.some((run) => repeats(run) > 1) ? " Of repeated runs the one of median time is shown, and below a figure the 95 % interval of the median over all." : "")),
+                               (runs.some((run) => repeats(run) > 1) ? " Figures of repeated runs are medians over all of them, with the 95 % interval of the median below; curves, paths and pictures are of the run of median time." : "")),
           ...warnings()];
 }
 
