@@ -21,11 +21,13 @@
 #include "commands.h"
 #include "config/presets.h"
 #include "interrupt.h"
+#include "io/files.h"
 #include "meters/clock.h"
 #include "open_sequence.h"
 #include "parameter_options.h"
 #include "results/page.h"
 #include "results/provenance.h"
+#include "runner/input_hash.h"
 #include "shell_text.h"
 #include "suite/suite_folder.h"
 #include "suite/suite_plan.h"
@@ -50,7 +52,8 @@ constexpr const char* footer =
     "\n"
     "Runs take turns, each in a process of its own. The same command goes on where an\n"
     "earlier one was stopped or killed: finished runs stay, failed ones are tried\n"
-    "again. Parameters on the command line are stronger than the file.\n"
+    "again. Parameters on the command line are stronger than the file; of the lists\n"
+    "of a matrix they select: --backend serial leaves one backend of many.\n"
     "\n"
     "Examples:\n"
     "  slambench suite configs/paper.toml --dry-run\n"
@@ -67,11 +70,19 @@ struct SuiteArguments {
   ParameterOptions options;
 };
 
-/// What is to be run here, and what cannot be.
+/// What the file asks for, and what of it is left out today.
 struct SuitePlan {
   std::string title;
   std::vector<Configuration> configurations;
-  std::vector<std::string> left_out;
+  std::vector<std::string> not_selected;  ///< by the command line
+  std::vector<std::string> unavailable;   ///< here
+
+  std::vector<std::string> left_out() const {
+    std::vector<std::string> sentences = not_selected;
+    sentences.insert(sentences.end(), unavailable.begin(), unavailable.end());
+    return sentences;
+  }
+  long running() const { return std::ranges::count_if(configurations, &Configuration::runs_today); }
 };
 
 std::optional<std::string> environment(const std::string& name) {
@@ -110,19 +121,20 @@ std::map<std::string, std::string> unavailable_backends(const std::string& progr
 }
 
 void leave_out_backends(const std::string& program, SuitePlan* plan) {
-  const bool asks = std::ranges::any_of(
-      plan->configurations, [](const Configuration& c) { return c.value("backend").has_value(); });
+  const bool asks = std::ranges::any_of(plan->configurations, [](const Configuration& c) {
+    return c.runs_today() && c.value("backend").has_value();
+  });
   if (!asks) return;
   std::vector<std::string> found;
   const auto unavailable = unavailable_backends(program);
-  std::erase_if(plan->configurations, [&](const Configuration& configuration) {
+  for (Configuration& configuration : plan->configurations) {
     const auto it = unavailable.find(configuration.value("backend").value_or(""));
-    if (it == unavailable.end()) return false;
+    if (it == unavailable.end() || !configuration.runs_today()) continue;
+    configuration.available = false;
     const std::string sentence = fmt::format("backend {}: {}", it->first, it->second);
     if (std::ranges::find(found, sentence) == found.end()) found.push_back(sentence);
-    return true;
-  });
-  plan->left_out.insert(plan->left_out.end(), found.begin(), found.end());
+  }
+  plan->unavailable.insert(plan->unavailable.end(), found.begin(), found.end());
 }
 
 SuitePlan make_plan(const SuiteArguments& arguments, const std::vector<ParameterList>& lists) {
@@ -130,25 +142,33 @@ SuitePlan make_plan(const SuiteArguments& arguments, const std::vector<Parameter
   const SuiteSettings over = overrides(arguments, lists);
   SuitePlan plan;
   plan.title = file.title.empty() ? fs::path(file.path).stem().string() : file.title;
-  plan.left_out = resolve_sequences(&file, environment, can_be_opened);
+  plan.unavailable = resolve_sequences(&file, environment, can_be_opened);
   plan.configurations = configurations(file, over, lists);
+  plan.not_selected = lists_without_selection(file, over, lists);
+  if (std::ranges::none_of(plan.configurations, &Configuration::selected)) {
+    throw UsageError(fmt::format("{}: the command line leaves nothing to run: {}", arguments.file,
+                                 fmt::join(plan.not_selected, "; ")));
+  }
   leave_out_backends(arguments.program, &plan);
-  if (plan.configurations.empty() || (arguments.require_all && !plan.left_out.empty())) {
-    throw UnavailableError(fmt::format("{}: cannot run here: {}", arguments.file,
-                                       plan.left_out.empty()
-                                           ? "no group has a sequence"
-                                           : fmt::format("{}", fmt::join(plan.left_out, "; "))));
+  if (plan.running() == 0 || (arguments.require_all && !plan.unavailable.empty())) {
+    throw UnavailableError(
+        fmt::format("{}: cannot run here: {}", arguments.file, fmt::join(plan.unavailable, "; ")));
   }
   return plan;
 }
 
 /// Opens every sequence, so that what is wrong with one is told now, and has it rendered unless it
-/// is to be looked at only. Returns the frames that each configuration runs over.
+/// is to be looked at only. Returns the frames that each configuration runs over, 0 where it is
+/// left out.
 std::vector<int> prepare_sequences(const std::vector<Configuration>& configurations, bool render,
                                    bool show, const InterruptFlag& interrupt) {
   std::map<std::vector<std::string>, int> known;
   std::vector<int> frames;
   for (const Configuration& configuration : configurations) {
+    if (!configuration.runs_today()) {
+      frames.push_back(0);
+      continue;
+    }
     AllParameters p;
     const std::vector<ParameterList> of_input = {p.source.describe(), p.run.describe()};
     std::vector<std::string> key = {configuration.sequence, configuration.preset};
@@ -224,11 +244,12 @@ void discard(const std::string& folder, const std::string& path) {
 }
 
 /// Leaves nothing in the folder but what counts.
-void take_over(const std::string& folder, const SuitePlan& plan, const SuiteResults& results) {
+void take_over(const std::string& folder, const SuitePlan& plan, const SuiteBuild& build,
+               const SuiteResults& results) {
   for (const Misfit& misfit : results.foreign) put_away(folder, "set-aside", misfit.path);
   for (const Misfit& misfit : results.half) discard(folder, misfit.path);
   remove_suite_leftovers(folder);
-  write_suite(folder, plan.title, plan.configurations);
+  write_suite(folder, plan.title, plan.configurations, build);
 }
 
 /// The last thing it said, or how it ended.
@@ -307,7 +328,7 @@ class SuiteRunner {
     });
     if (outcome.status == 0) {
       const StoredRun stored = read_stored_run(path);
-      const RunCost cost{progress->elapsed_s(), frames_[run.configuration]};
+      const RunCost cost = cost_of(stored);
       times_.add(of(run), cost);
       progress->end(value_of("time.fps_computation", stored), expected_s(i + 1));
       if (run.repetition > 0) results_.done[run] = cost;
@@ -332,9 +353,10 @@ class SuiteRunner {
 };
 
 /// Two configurations that a user may want to compare and that compute the same: on one sequence
-/// with one preset, the first and the last.
+/// with one preset, the first and the last. "" when there are no two.
 std::string comparison_example(const std::vector<Configuration>& configurations,
                                const std::string& folder) {
+  if (configurations.empty()) return "";
   const Configuration& base = configurations.front();
   const Configuration* other = nullptr;
   for (const Configuration& c : configurations) {
@@ -349,11 +371,14 @@ std::string comparison_example(const std::vector<Configuration>& configurations,
 /// Throws when something is wrong with the results.
 void report(const SuitePlan& plan, const SuiteRunner& runner, const std::string& folder,
             const std::vector<ParameterList>& lists, bool quiet) {
+  std::vector<Configuration> shown;  // what is left out too, where it has results
   std::vector<ConfigurationResult> results;
   std::vector<std::string> problems;
   for (std::size_t i = 0; i < plan.configurations.size(); ++i) {
     const auto count = std::ranges::count_if(
         runner.results().done, [&](const auto& done) { return done.first.configuration == i; });
+    if (count == 0 && !plan.configurations[i].runs_today()) continue;
+    shown.push_back(plan.configurations[i]);
     results.push_back(
         result_of(folder, plan.configurations[i], static_cast<std::size_t>(count), lists));
     if (!results.back().problem.empty()) problems.push_back(results.back().problem);
@@ -361,9 +386,9 @@ void report(const SuitePlan& plan, const SuiteRunner& runner, const std::string&
   if (!quiet) {
     Page page(output_takes_colors());
     page.gap();
-    for (const std::string& sentence : plan.left_out) page.wrapped("left out", sentence);
+    for (const std::string& sentence : plan.left_out()) page.wrapped("left out", sentence);
     page.wrapped("results", folder);
-    const std::string example = comparison_example(plan.configurations, folder);
+    const std::string example = comparison_example(shown, folder);
     if (!example.empty()) page.wrapped("compare", example);
     page.wrapped("report", shell_text({"slambench", "report", folder, "-o", "report.html"}));
     print("\n" + suite_table(results, output_takes_colors()) + std::move(page).text());
@@ -382,9 +407,9 @@ void report(const SuitePlan& plan, const SuiteRunner& runner, const std::string&
 /// A shell script: what is done or cannot be done is a comment.
 std::string listing(const SuitePlan& plan, const SuiteRunner& runner, const std::string& program) {
   std::string text =
-      fmt::format("# {}: {} configurations, {} runs to do, {} done\n", plan.title,
-                  plan.configurations.size(), runner.runs().size(), runner.results().done.size());
-  for (const std::string& sentence : plan.left_out) {
+      fmt::format("# {}: {} configurations, {} runs to do, {} done\n", plan.title, plan.running(),
+                  runner.runs().size(), runner.results().done.size());
+  for (const std::string& sentence : plan.left_out()) {
     text += fmt::format("# left out: {}\n", sentence);
   }
   for (const PlannedRun& run : runner.runs()) {
@@ -406,8 +431,9 @@ ExitStatus run(SuiteArguments& arguments) {
   const std::vector<ParameterList> lists = arguments.parameters.lists();
   SuitePlan plan = make_plan(arguments, lists);
   const std::string folder = folder_of(arguments);
-  const Provenance build =
-      build_and_machine(std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()));
+  const SuiteBuild build{
+      build_and_machine(std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now())),
+      hash_text(read_file("/proc/self/exe"))};
   keep_folders(folder, &plan.configurations);
   SuiteLock lock;
   if (!arguments.dry_run) {
@@ -419,7 +445,7 @@ ExitStatus run(SuiteArguments& arguments) {
   const InterruptFlag interrupt;
   auto frames =
       prepare_sequences(plan.configurations, !arguments.dry_run, !arguments.quiet, interrupt);
-  if (!arguments.dry_run) take_over(folder, plan, results);
+  if (!arguments.dry_run) take_over(folder, plan, build, results);
   SuiteRunner runner(arguments, plan, folder, std::move(frames), std::move(results));
   if (arguments.dry_run) {
     print(listing(plan, runner, arguments.program));
@@ -428,7 +454,7 @@ ExitStatus run(SuiteArguments& arguments) {
   const std::size_t before = runner.results().done.size();
   if (!arguments.quiet) {
     print(fmt::format("{}: {} configurations, {} runs to do, {} done before\n", plan.title,
-                      plan.configurations.size(), runner.runs().size(), before));
+                      plan.running(), runner.runs().size(), before));
   }
   runner.run_all(interrupt);
   if (interrupt.raised().load()) {

@@ -21,10 +21,8 @@ class SuiteProgress {
   void end(std::optional<double> fps, std::optional<double> left_s);
   void fail(const std::string& reason);
 
-  /// Since begin().
-  double elapsed_s() const;
-
  private:
+  double elapsed_s() const;  ///< since begin()
   std::string head() const;
 
   const std::size_t runs_;

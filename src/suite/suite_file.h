@@ -24,10 +24,12 @@ struct SuiteAxis {
 };
 
 struct SuiteSequence {
-  std::string path;       ///< as slambench run takes it; ${NAME} stands for the environment's NAME
+  /// As slambench run takes it; ${NAME} stands for the environment's NAME. Empty: not known here.
+  std::string path;
   std::string name;       ///< what tables call it
   bool optional = false;  ///< left out where it is not there
-  int line = 0;           ///< of the file, for messages
+  bool available = true;
+  int line = 0;  ///< of the file, for messages
   SuiteSettings settings;
 };
 

@@ -57,37 +57,80 @@ Json as_json(const Configuration& configuration) {
           {"preset", configuration.preset},   {"parameters", parameters}};
 }
 
-/// What identifies the configurations of an earlier suite, and their folders.
-std::vector<Configuration> read_suite(const std::string& file) {
+/// A suite.json: the program that wrote it, what identifies configurations, and their folders.
+struct EarlierSuite {
+  std::string executable;
   std::vector<Configuration> configurations;
+};
+
+EarlierSuite read_suite(const std::string& file) {
+  EarlierSuite suite;
   const Json json = Json::parse(read_file(file), nullptr, false);
   if (!json.is_object() || json.value("format", Json()) != suite_format ||
       json.value("version", Json()) != suite_version) {
     throw InputError(fmt::format("{}: is not what this version of slambench suite writes", file));
   }
   try {
+    suite.executable = json.value("executable", "");
     for (const Json& from : json.at("configurations")) {
       Configuration to;
       from.at("folder").get_to(to.folder);
+      from.at("sequence").get_to(to.sequence_name);
       from.at("path").get_to(to.sequence);
       from.at("preset").get_to(to.preset);
       for (const auto& [name, value] : from.at("parameters").items()) {
         to.assignments.push_back({name, value.get<std::string>()});
       }
-      configurations.push_back(std::move(to));
+      suite.configurations.push_back(std::move(to));
     }
   } catch (const Json::exception& error) {
     throw InputError(fmt::format("{}: {}", file, error.what()));
   }
   std::set<std::string> folders;
-  for (const Configuration& c : configurations) {
+  for (const Configuration& c : suite.configurations) {
     if (is_folder_name(c.folder) && folders.insert(c.folder).second) continue;
     throw InputError(
         fmt::format("{}: folder: found '{}', expected a name that no other "
                     "configuration has and no path",
                     file, c.folder));
   }
-  return configurations;
+  return suite;
+}
+
+/// How the settings of one configuration differ from those of another.
+std::vector<std::string> setting_differences(const Configuration& found,
+                                             const Configuration& expected) {
+  std::vector<std::string> sentences;
+  const auto compare = [&](std::string_view name, const std::string& value,
+                           const std::string& other) {
+    if (value == other) return;
+    sentences.push_back(fmt::format("{} {}, expected {}", name, value.empty() ? "not set" : value,
+                                    other.empty() ? "none" : other));
+  };
+  compare("sequence", found.sequence, expected.sequence);
+  compare("preset", found.preset, expected.preset);
+  std::set<std::string> names;
+  for (const auto& [name, value] : found.assignments) names.insert(name);
+  for (const auto& [name, value] : expected.assignments) names.insert(name);
+  for (const std::string& name : names) {
+    compare(name, found.value(name).value_or(""), expected.value(name).value_or(""));
+  }
+  return sentences;
+}
+
+/// Why results in a folder of that name are of no configuration: what the earlier suite that made
+/// them had in place of the one that is most alike.
+std::string stranger_text(const std::string& name, const EarlierSuite& earlier,
+                          const std::vector<Configuration>& configurations) {
+  const auto it = std::ranges::find(earlier.configurations, name, &Configuration::folder);
+  if (it == earlier.configurations.end()) return "is of no configuration of the suite";
+  std::vector<std::string> least;
+  for (const Configuration& configuration : configurations) {
+    auto differences = setting_differences(*it, configuration);
+    if (differences.empty()) return "is of no run of the suite";
+    if (least.empty() || differences.size() < least.size()) least = std::move(differences);
+  }
+  return fmt::format("is of other settings: {}", fmt::join(least, "; "));
 }
 
 /// What the record has at the place, a number as text; "" when nothing.
@@ -96,40 +139,52 @@ std::string value_at(const StoredRun& run, const std::string& place) {
   return number == run.numbers.end() ? run.text(place) : fmt::format("{}", number->second);
 }
 
-/// Why the run does not belong to the configuration and this build; "" when it does.
-std::string mismatch(const StoredRun& run, const Configuration& configuration,
-                     const Provenance& build, const std::vector<ParameterList>& lists) {
-  std::vector<std::pair<std::string, std::string>> expected = {
-      {"provenance.version", build.version},
-      {"provenance.commit", build.commit},
-      {"provenance.compiler", build.compiler},
-      {"provenance.flags", build.flags},
-      {"provenance.build_type", build.build_type},
-      {"provenance.cpu", build.cpu},
-      {"provenance.cores", fmt::format("{}", build.cores)},
-      {"provenance.os", build.os}};
-  if (!configuration.preset.empty()) {
-    expected.emplace_back("parameters.run.preset.value", configuration.preset);
+/// Why the run was not made by this build on this machine; "" when it was.
+std::string other_build(const StoredRun& run, const SuiteBuild& build,
+                        const std::string& executable) {
+  const Provenance& here = build.provenance;
+  const std::vector<std::pair<std::string, std::string>> expected = {
+      {"version", here.version},
+      {"commit", here.commit},
+      {"compiler", here.compiler},
+      {"flags", here.flags},
+      {"build_type", here.build_type},
+      {"cpu", here.cpu},
+      {"cores", fmt::format("{}", here.cores)},
+      {"os", here.os}};
+  for (const auto& [name, value] : expected) {
+    const std::string found = value_at(run, "provenance." + name);
+    if (found == value) continue;
+    return fmt::format("was made by another build or machine: {} is '{}', here '{}'", name, found,
+                       value);
   }
+  const bool says_all = here.commit != "unknown" && !here.commit.ends_with("-dirty");
+  if (says_all || executable == build.executable) return "";
+  return fmt::format(
+      "was made by another build of commit {}: the hash of the program was '{}', "
+      "is '{}' here",
+      here.commit, executable, build.executable);
+}
+
+/// Why the run is not of the configuration; "" when it is.
+std::string other_settings(const StoredRun& run, const Configuration& configuration,
+                           const std::vector<ParameterList>& lists) {
+  const auto difference = [&](std::string_view group, std::string_view name,
+                              const std::string& value) {
+    const std::string found = value_at(run, fmt::format("parameters.{}.{}.value", group, name));
+    return found == value ? ""
+                          : fmt::format("is of other settings: {} {}, expected {}", name,
+                                        found.empty() ? "not set" : found, value);
+  };
+  std::string text;
+  if (!configuration.preset.empty()) text = difference("run", "preset", configuration.preset);
   for (const ParameterList& list : lists) {
     for (const Parameter& parameter : list.parameters) {
       const auto value = configuration.value(parameter.name);
-      if (!value) continue;
-      expected.emplace_back(fmt::format("parameters.{}.{}.value", list.group, parameter.name),
-                            *value);
+      if (text.empty() && value) text = difference(list.group, parameter.name, *value);
     }
   }
-  for (const auto& [place, value] : expected) {
-    const std::string found = value_at(run, place);
-    if (found == value) continue;
-    constexpr std::string_view of_build = "provenance.";
-    return place.starts_with(of_build)
-               ? fmt::format("was made by another build or machine: {} is '{}', here '{}'",
-                             place.substr(of_build.size()), found, value)
-               : fmt::format("is of other settings: {} is '{}', expected '{}'", place, found,
-                             value);
-  }
-  return "";
+  return text;
 }
 
 /// The run whose place in the suite's folder this is, CONFIGURATION/REPETITION; nothing when none.
@@ -146,15 +201,6 @@ std::optional<PlannedRun> run_at(const fs::path& path,
     return std::nullopt;
   }
   return PlannedRun{static_cast<std::size_t>(it - configurations.begin()), repetition};
-}
-
-RunCost cost_of(const StoredRun& run) {
-  const auto number = [&](const char* place) {
-    const auto it = run.numbers.find(place);
-    return it == run.numbers.end() ? 0.0 : it->second;
-  };
-  return {number("time.wall_s") + number("time.start_up.seconds"),
-          static_cast<int>(number("frames.processed"))};
 }
 
 }  // namespace
@@ -197,7 +243,7 @@ void keep_folders(const std::string& folder, std::vector<Configuration>* configu
     throw UsageError(fmt::format("{}: holds files but no suite ({}); choose another folder", folder,
                                  suite_name));
   }
-  const std::vector<Configuration> earlier = read_suite(file);
+  const std::vector<Configuration> earlier = read_suite(file).configurations;
   std::vector<Configuration*> fresh;
   for (Configuration& configuration : *configurations) {
     const auto same = std::ranges::find_if(earlier, [&](const Configuration& other) {
@@ -207,6 +253,7 @@ void keep_folders(const std::string& folder, std::vector<Configuration>* configu
       fresh.push_back(&configuration);
     } else {
       configuration.folder = same->folder;
+      if (configuration.sequence.empty()) configuration.sequence = same->sequence;
     }
   }
   const auto taken = [&](const Configuration* self, const std::string& name) {
@@ -224,29 +271,48 @@ void keep_folders(const std::string& folder, std::vector<Configuration>* configu
 }
 
 void write_suite(const std::string& folder, const std::string& title,
-                 const std::vector<Configuration>& configurations) {
-  Json json = {{"format", suite_format}, {"version", suite_version}, {"title", title}};
+                 const std::vector<Configuration>& configurations, const SuiteBuild& build) {
+  Json json = {{"format", suite_format},
+               {"version", suite_version},
+               {"title", title},
+               {"executable", build.executable}};
   json["configurations"] = Json::array();
   for (const Configuration& c : configurations) json["configurations"].push_back(as_json(c));
   write_file(fs::path(folder) / suite_name,
              json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
+RunCost cost_of(const StoredRun& run) {
+  const auto number = [&](const char* place) {
+    const auto it = run.numbers.find(place);
+    return it == run.numbers.end() ? 0.0 : it->second;
+  };
+  return {number("time.wall_s") + number("time.start_up.seconds"),
+          static_cast<int>(number("frames.processed"))};
+}
+
 SuiteResults find_results(const std::string& folder,
-                          const std::vector<Configuration>& configurations, const Provenance& build,
+                          const std::vector<Configuration>& configurations, const SuiteBuild& build,
                           const std::vector<ParameterList>& lists) {
   SuiteResults results;
   std::error_code error;
-  if (!fs::is_directory(folder, error)) return results;
+  const fs::path file = fs::path(folder) / suite_name;
+  if (!fs::exists(file, error)) return results;
+  const EarlierSuite earlier = read_suite(file);
   for (const std::string& path : result_folders_in(folder)) {
-    const auto run = run_at(fs::path(path).lexically_relative(folder), configurations);
+    const fs::path place = fs::path(path).lexically_relative(folder);
+    const auto run = run_at(place, configurations);
     if (!run) {
-      results.foreign.push_back({path, "is of no configuration of the suite"});
+      results.foreign.push_back(
+          {path, stranger_text(place.parent_path(), earlier, configurations)});
       continue;
     }
     try {
       const StoredRun stored = read_stored_run(path);
-      const std::string other = mismatch(stored, configurations[run->configuration], build, lists);
+      std::string other = other_build(stored, build, earlier.executable);
+      if (other.empty()) {
+        other = other_settings(stored, configurations[run->configuration], lists);
+      }
       if (!other.empty()) {
         results.foreign.push_back({path, other});
       } else if (!stored.complete()) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/stored_run.h"
 #include "results/record.h"
 #include "suite/suite_plan.h"
 
@@ -35,25 +36,34 @@ class SuiteLock {
 std::string run_folder(const std::string& folder, const Configuration& configuration,
                        const PlannedRun& run);
 
-/// Gives each configuration the folder that it has in an earlier suite.json, and new ones none that
-/// is in use. Nothing happens to a folder that is not there or empty. Throws UsageError for one
-/// that holds anything but a suite, InputError for a suite.json that cannot be read.
+/// Gives each configuration the folder that it has in an earlier suite.json (and the path of its
+/// sequence, where that is not known here), and new ones none that is in use. Nothing happens to a
+/// folder that is not there or empty. Throws UsageError for one that holds anything but a suite,
+/// InputError for a suite.json that cannot be read.
 void keep_folders(const std::string& folder, std::vector<Configuration>* configurations);
+
+/// What made results: this program on this machine.
+struct SuiteBuild {
+  Provenance provenance;
+  std::string executable;  ///< hash of its file: tells apart what a commit does not
+};
 
 /// Replaces suite.json. Throws Error.
 void write_suite(const std::string& folder, const std::string& title,
-                 const std::vector<Configuration>& configurations);
+                 const std::vector<Configuration>& configurations, const SuiteBuild& build);
 
 /// Results that lie where they do not belong, or do not count.
 struct Misfit {
   std::string path, reason;
 };
 
-/// What a finished run took.
+/// What a finished run took by its record: start-up and frames.
 struct RunCost {
   double seconds = 0;
   int frames = 0;
 };
+
+RunCost cost_of(const StoredRun& run);
 
 struct SuiteResults {
   std::map<PlannedRun, RunCost> done;
@@ -61,9 +71,9 @@ struct SuiteResults {
   std::vector<Misfit> foreign;  ///< of no configuration, of another one or of another build
 };
 
-/// Looks through the folder; nothing is changed. `build` is this program on this machine.
+/// Looks through the folder; nothing is changed.
 SuiteResults find_results(const std::string& folder,
-                          const std::vector<Configuration>& configurations, const Provenance& build,
+                          const std::vector<Configuration>& configurations, const SuiteBuild& build,
                           const std::vector<ParameterList>& lists);
 
 /// Removes what killed runs and suites left behind in the folder, whose lock is held.

@@ -42,20 +42,25 @@ std::string unused_name(const std::string& name, std::set<std::string>* used) {
   return candidate;
 }
 
-/// The suite's axes with those of the group in their places, without those that are overridden.
-std::vector<SuiteAxis> axes_of(const SuiteFile& file, const SuiteGroup& group,
-                               const SuiteSettings& overrides) {
+/// The suite's axes with those of the group in their places.
+std::vector<SuiteAxis> axes_of(const SuiteFile& file, const SuiteGroup& group) {
   std::vector<SuiteAxis> axes = file.axes;
   for (const SuiteAxis& axis : group.axes) {
     const auto same = std::ranges::find(axes, axis.name, &SuiteAxis::name);
     same == axes.end() ? axes.push_back(axis) : void(*same = axis);
   }
-  std::erase_if(axes, [&](const SuiteAxis& axis) {
-    if (axis.name == "preset") return !overrides.preset.empty();
-    return std::ranges::find(overrides.assignments, axis.name, &ConfigAssignment::name) !=
-           overrides.assignments.end();
-  });
   return axes;
+}
+
+std::string canonical(const std::string& name, const std::string& value, const Lists& lists) {
+  return name == "preset" ? value : canonical_text(*find(lists, name), value);
+}
+
+/// The value that the settings give the axis; "" when none.
+std::string selection(const SuiteAxis& axis, const SuiteSettings& settings, const Lists& lists) {
+  if (axis.name == "preset") return settings.preset;
+  const auto it = std::ranges::find(settings.assignments, axis.name, &ConfigAssignment::name);
+  return it == settings.assignments.end() ? "" : canonical(axis.name, it->value, lists);
 }
 
 /// Words speak for themselves, numbers do not.
@@ -78,7 +83,7 @@ class Layers {
     if (name == "preset") {
       preset_ = value;
     } else {
-      values_[name] = canonical_text(*find(lists_, name), value);
+      values_[name] = canonical(name, value, lists_);
     }
   }
 
@@ -127,7 +132,7 @@ void require_few(const SuiteFile& file, const std::vector<SuiteAxis>& axes, std:
 void add_combinations(const SuiteFile& file, const SuiteSequence& sequence, const SuiteGroup& group,
                       const SuiteSettings& overrides, const Lists& lists,
                       std::set<std::string>* folders, std::vector<Configuration>* all) {
-  const std::vector<SuiteAxis> axes = axes_of(file, group, overrides);
+  const std::vector<SuiteAxis> axes = axes_of(file, group);
   require_few(file, axes, all->size());
   std::vector<std::size_t> place(axes.size(), 0);
   do {
@@ -135,19 +140,24 @@ void add_combinations(const SuiteFile& file, const SuiteSequence& sequence, cons
     layers.add(file.settings);
     layers.add(sequence.settings);
     layers.add(group.settings);
+    layers.add(overrides);
+    Configuration configuration;
     std::string variant = group.name;
     for (std::size_t i = 0; i < axes.size(); ++i) {
       const std::string& value = axes[i].values[place[i]];
       layers.add(axes[i].name, value);
+      const std::string chosen = selection(axes[i], overrides, lists);
+      if (!chosen.empty() && chosen != canonical(axes[i].name, value, lists)) {
+        configuration.selected = false;
+      }
       if (axes[i].values.size() < 2) continue;
       variant +=
           fmt::format("{}{}", variant.empty() ? "" : " ", value_label(axes[i], value, lists));
     }
-    layers.add(overrides);
-    Configuration configuration;
     configuration.sequence_name = sequence.name;
-    configuration.variant = variant;
+    configuration.variant = variant.empty() ? "all settings" : variant;
     configuration.sequence = sequence.path;
+    configuration.available = sequence.available;
     layers.write_to(&configuration);
     const std::string words = variant.empty() ? sequence.name : sequence.name + " " + variant;
     configuration.folder = unused_name(folder_name(words), folders);
@@ -158,8 +168,9 @@ void add_combinations(const SuiteFile& file, const SuiteSequence& sequence, cons
 void require_different(const SuiteFile& file, const std::vector<Configuration>& all) {
   std::map<std::vector<std::string>, std::string> folders;  // by all that is computed
   for (const Configuration& configuration : all) {
-    const auto [other, is_new] =
-        folders.emplace(run_arguments(configuration), configuration.folder);
+    auto all_of_it = run_arguments(configuration);
+    if (configuration.sequence.empty()) all_of_it.push_back(configuration.sequence_name);
+    const auto [other, is_new] = folders.emplace(std::move(all_of_it), configuration.folder);
     if (is_new) continue;
     throw InputError(
         fmt::format("{}: {} and {} are the same runs: found equal settings, expected groups and "
@@ -200,7 +211,9 @@ std::optional<std::string> Configuration::value(std::string_view parameter) cons
 }
 
 bool Configuration::computes_the_same_as(const Configuration& other) const {
-  return sequence == other.sequence && preset == other.preset &&
+  const bool known = !sequence.empty() && !other.sequence.empty();
+  return (known ? sequence == other.sequence : sequence_name == other.sequence_name) &&
+         preset == other.preset &&
          std::ranges::equal(assignments, other.assignments, [](const auto& a, const auto& b) {
            return a.name == b.name && a.value == b.value;
          });
@@ -211,7 +224,7 @@ std::vector<std::string> resolve_sequences(
     const std::function<std::optional<std::string>(const std::string&)>& environment,
     const std::function<bool(const std::string& path)>& is_there) {
   std::vector<std::string> left_out;
-  std::erase_if(file->sequences, [&](SuiteSequence& sequence) {
+  for (SuiteSequence& sequence : file->sequences) {
     std::string missing;
     const std::string written = sequence.path;
     sequence.path = with_environment(written, environment, &missing);
@@ -219,12 +232,13 @@ std::vector<std::string> resolve_sequences(
       throw InputError(fmt::format("{}:{}: path: found '{}', expected the environment to have {}",
                                    file->path, sequence.line, written, missing));
     }
-    if (!sequence.optional || (missing.empty() && is_there(sequence.path))) return false;
+    if (!sequence.optional || (missing.empty() && is_there(sequence.path))) continue;
+    sequence.available = false;
     left_out.push_back(
         fmt::format("sequence {}: {}", sequence.name,
                     missing.empty() ? sequence.path + " is not there" : missing + " is not set"));
-    return true;
-  });
+    if (!missing.empty()) sequence.path.clear();
+  }
   return left_out;
 }
 
@@ -242,6 +256,25 @@ std::vector<Configuration> configurations(const SuiteFile& file, const SuiteSett
   }
   require_different(file, all);
   return all;
+}
+
+std::vector<std::string> lists_without_selection(const SuiteFile& file,
+                                                 const SuiteSettings& overrides,
+                                                 const Lists& lists) {
+  std::vector<std::string> sentences;
+  for (const SuiteGroup& group : file.groups) {
+    for (const SuiteAxis& axis : axes_of(file, group)) {
+      const std::string chosen = selection(axis, overrides, lists);
+      const bool lacks = std::ranges::none_of(axis.values, [&](const std::string& value) {
+        return canonical(axis.name, value, lists) == chosen;
+      });
+      if (chosen.empty() || !lacks) continue;
+      sentences.push_back(fmt::format("{}: {}: found {}, expected one of {}",
+                                      group.name.empty() ? "matrix" : "group " + group.name,
+                                      axis.name, chosen, fmt::join(axis.values, ", ")));
+    }
+  }
+  return sentences;
 }
 
 std::vector<std::string> run_arguments(const Configuration& configuration) {
@@ -267,6 +300,7 @@ std::vector<PlannedRun> runs_in_turns(const std::vector<Configuration>& configur
   for (int repetition = 1; repetition <= most_runs; ++repetition) {
     for (std::size_t i = 0; i < configurations.size(); ++i) {
       const PlannedRun run{i, repetition};
+      if (!configurations[i].runs_today()) continue;
       if (repetition > configurations[i].repeat || is_done(run)) continue;
       runs.push_back(run);
       unfinished.insert(i);

@@ -21,19 +21,25 @@ bool is_folder_name(const std::string& name);
 
 /// One cell of the matrix: what is run, as often as it says.
 struct Configuration {
-  std::string folder;         ///< of its runs, in that of the suite: no other has the same
-  std::string sequence_name;  ///< the row of a table
-  std::string variant;        ///< the column: its group, and the values that vary
-  std::string sequence, preset;
+  std::string folder;            ///< of its runs, in that of the suite: no other has the same
+  std::string sequence_name;     ///< the row of a table
+  std::string variant;           ///< the column: its group, and the values that vary
+  std::string sequence, preset;  ///< a sequence whose path is not known here is ""
   std::vector<ConfigAssignment> assignments;  ///< as records show them, in the order of the lists
   int repeat = 1, warmup = 0;
+  bool selected = true;   ///< by the command line
+  bool available = true;  ///< here: its sequence and its backend
+
+  /// Others are left out today; results that they have stay theirs.
+  bool runs_today() const { return selected && available; }
 
   /// Nothing when the preset or the default decides.
   std::optional<std::string> value(std::string_view parameter) const;
+  /// Where the path of a sequence is not known, its name decides.
   bool computes_the_same_as(const Configuration& other) const;
 };
 
-/// Puts the environment's values in place of ${NAME} in the paths of sequences, and takes out those
+/// Puts the environment's values in place of ${NAME} in the paths of sequences, and marks those
 /// that are optional and not there. Returns a sentence for each of these. Throws InputError for a
 /// name that is not set, when the sequence is not optional.
 std::vector<std::string> resolve_sequences(
@@ -42,11 +48,16 @@ std::vector<std::string> resolve_sequences(
     const std::function<bool(const std::string& path)>& is_there);
 
 /// All combinations: by sequence, then group, then the values of the matrix, the last axis the
-/// quickest. From weak to strong: the suite's settings, the sequence's, the group's, the values of
-/// the matrix, `overrides`; an axis that these set does not vary. Throws InputError when two
-/// combinations are the same.
+/// quickest. From weak to strong: the suite's settings, the sequence's, the group's, `overrides`.
+/// Of an axis that these set, they select the value. Throws InputError when two combinations are
+/// the same.
 std::vector<Configuration> configurations(const SuiteFile& file, const SuiteSettings& overrides,
                                           const std::vector<ParameterList>& lists);
+
+/// A sentence for each list of a matrix that lacks the value which `overrides` select.
+std::vector<std::string> lists_without_selection(const SuiteFile& file,
+                                                 const SuiteSettings& overrides,
+                                                 const std::vector<ParameterList>& lists);
 
 /// What stands after "slambench", but for the folder of the results.
 std::vector<std::string> run_arguments(const Configuration& configuration);

@@ -92,7 +92,7 @@ std::string suite_table(const std::vector<ConfigurationResult>& results, bool co
                             "ms a frame", "ATE mm", "J/frame"),
                 Look::heading);
     }
-    std::string variant = result.variant.empty() ? "all settings" : result.variant;
+    std::string variant = result.variant;
     const std::string figures =
         fmt::format("{:>5}{:>11}{:>12}{:>9}{:>10}", result.runs, cell(result.fps, 1, 2),
                     cell(result.computation_s, 1e3, 3), cell(result.ate_rmse_m, 1e3, 2),

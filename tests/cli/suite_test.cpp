@@ -136,7 +136,8 @@ TEST_F(SuiteTest, NewCombinationsAreAddedAndOldOnesNeverMixedIn) {
   suite("sequence = 'small.raw'\n[matrix]\nbackend = ['serial', 'openmp']\nmu = [0.1, 0.2]\n");
   const testing::Outcome refused = run();
   EXPECT_EQ(refused.status, 2);
-  EXPECT_THAT(refused.err, AllOf(HasSubstr("out/small.raw-openmp/1 is of no configuration"),
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("out/small.raw-openmp/1 is of other settings: mu not "
+                                           "set, expected 0.1"),
                                  HasSubstr("--set-aside")));
   EXPECT_EQ(records(), first);
 
@@ -165,8 +166,33 @@ TEST_F(SuiteTest, ResultsOfAnotherBuildOrOfOtherSettingsAreRefused) {
   fs::rename(path("out/small.raw-openmp/2"), path("out/small.raw-serial/1"));
   const testing::Outcome mixed = run();
   EXPECT_EQ(mixed.status, 2);
-  EXPECT_THAT(mixed.err, HasSubstr("of other settings: parameters.backend.backend.value is "
-                                   "'openmp', expected 'serial'"));
+  EXPECT_THAT(mixed.err, HasSubstr("of other settings: backend openmp, expected serial"));
+}
+
+TEST_F(SuiteTest, ResultsOfWhatIsLeftOutTodayStayTheSuites) {
+  write("there.raw", testing::small_raw(8));
+  suite(
+      "[[sequence]]\npath = 'small.raw'\n[[sequence]]\npath = 'there.raw'\noptional = true\n"
+      "[matrix]\nbackend = ['serial', 'openmp']\n");
+  ASSERT_EQ(run().status, 0);
+  const auto first = records();
+  ASSERT_EQ(first.size(), 4U);
+  fs::rename(path("there.raw"), path("away.raw"));
+  fs::remove_all(path("out/small.raw-serial"));
+  const testing::Outcome outcome = run({"--backend", "serial"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("1 configurations, 1 runs to do, 3 done before"),
+                                 HasSubstr("sequence there.raw: there.raw is not there")));
+  EXPECT_EQ(records().size(), 4U);
+  fs::rename(path("away.raw"), path("there.raw"));
+  EXPECT_THAT(run().out, HasSubstr("4 configurations, 0 runs to do, 4 done before"));
+  EXPECT_EQ(records().at("there.raw-openmp/1"), first.at("there.raw-openmp/1"));
+}
+
+TEST_F(SuiteTest, ResultsOfOtherParametersOnTheCommandLineNameThem) {
+  ASSERT_EQ(run({"--frames", "7", "--repeat", "1"}).status, 0);
+  EXPECT_THAT(run({"--frames", "6"}).err,
+              HasSubstr("out/small.raw-openmp/1 is of other settings: frames 7, expected 6"));
 }
 
 TEST_F(SuiteTest, AFailedRunIsToldAndTriedAgainAndTheOthersGoOn) {
@@ -257,6 +283,9 @@ TEST_F(SuiteTest, WrongArgumentsHaveTheirStatus) {
   EXPECT_EQ(program_.run({"suite", "nowhere.toml"}).status, 3);
   EXPECT_EQ(run({"--mu", "x"}).status, 2);
   EXPECT_EQ(run({"--preset", "x"}).status, 2);
+  EXPECT_THAT(run({"--backend", "cuda"}).err,
+              HasSubstr("leaves nothing to run: matrix: backend: found cuda, expected one of "
+                        "serial, openmp"));
   suite("sequence = 'nowhere'\n");
   EXPECT_EQ(run().status, 3);
   suite("sequence = 'small.raw'\n[matrix]\nbackend = ['serail']\n");

@@ -94,16 +94,42 @@ TEST_F(SuitePlanTest, GroupsHaveSettingsAxesAndSequencesOfTheirOwn) {
   EXPECT_EQ(all[2].value("near"), std::nullopt);
 }
 
-TEST_F(SuitePlanTest, WhatIsSaidOnTheCommandLineBeatsAllAndDoesNotVary) {
+TEST_F(SuitePlanTest, TheCommandLineBeatsAllAndSelectsFromTheMatrix) {
   const auto all = plan(
       "sequence = 'a'\n[matrix]\nbackend = ['serial', 'openmp']\npreset = ['fast', 'slambench1']\n"
       "[run]\nframes = 9\nrepeat = 2\n",
       {"slambench1", {{"backend", "serial"}, {"frames", "5"}, {"repeat", "4"}}});
-  ASSERT_THAT(folders(all), ElementsAre("a"));
-  EXPECT_EQ(all[0].value("backend"), "serial");
-  EXPECT_EQ(all[0].value("frames"), "5");
-  EXPECT_EQ(all[0].preset, "slambench1");
-  EXPECT_EQ(all[0].repeat, 4);
+  ASSERT_THAT(folders(all), ElementsAre("a-serial-fast", "a-serial-slambench1", "a-openmp-fast",
+                                        "a-openmp-slambench1"));
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i].runs_today(), i == 1) << i;
+  EXPECT_EQ(all[1].value("backend"), "serial");
+  EXPECT_EQ(all[1].preset, "slambench1");
+  for (const Configuration& each : all) {
+    EXPECT_EQ(each.value("frames"), "5");
+    EXPECT_EQ(each.repeat, 4);
+  }
+  EXPECT_THAT(runs_in_turns(all, [](const PlannedRun& run) { return run.repetition > 1; }),
+              ElementsAre(PlannedRun{1, 1}));
+}
+
+TEST_F(SuitePlanTest, AGroupWhoseListLacksWhatIsSelectedIsLeftOut) {
+  const char* text =
+      "sequence = 'a'\n[[group]]\nname = 'published'\n"
+      "matrix = {backend = ['serial', 'openmp'], volume-resolution = [64, 128]}\n"
+      "[[group]]\nname = 'fast'\npreset = 'fast'\nmatrix.backend = ['openmp']\n";
+  const SuiteSettings serial = {"", {{"backend", "serial"}, {"volume-resolution", "64"}}};
+  std::vector<std::string> running;
+  for (const Configuration& each : plan(text, serial)) {
+    if (each.runs_today()) running.push_back(each.folder);
+  }
+  EXPECT_THAT(running, ElementsAre("a-published-serial-volume-resolution-64"));
+  EXPECT_THAT(lists_without_selection(parse(text), serial, lists_),
+              ElementsAre("group fast: backend: found serial, expected one of openmp"));
+  EXPECT_THAT(lists_without_selection(parse(text), {"", {{"mu", "0.2"}}}, lists_), IsEmpty());
+}
+
+TEST_F(SuitePlanTest, WithoutGroupAndMatrixAVariantHasAName) {
+  EXPECT_EQ(plan("sequence = 'a'\n")[0].variant, "all settings");
 }
 
 TEST_F(SuitePlanTest, FoldersDifferEvenWhereNamesDoNotAndAreNeverHidden) {
@@ -200,15 +226,21 @@ TEST_F(SuitePlanTest, OptionalSequencesAreLeftOutWithAWord) {
   SuiteFile file = parse(
       "[[sequence]]\npath = '${DATA}/x'\noptional = true\n"
       "[[sequence]]\npath = '${NOTHING}/y'\noptional = true\n"
+      "[[sequence]]\npath = '${NOTHING}/u'\noptional = true\n"
       "[[sequence]]\npath = '${DATA}/z'\noptional = true\n[[sequence]]\npath = 'w'\n");
   const auto environment = [](const std::string& name) {
     return name == "DATA" ? std::optional<std::string>("/data") : std::nullopt;
   };
   const auto is_there = [](const std::string& path) { return path == "/data/x"; };
   EXPECT_THAT(resolve_sequences(&file, environment, is_there),
-              ElementsAre("sequence y: NOTHING is not set", "sequence z: /data/z is not there"));
-  EXPECT_THAT(folders(configurations(file, {}, lists_)), ElementsAre("x", "w"));
+              ElementsAre("sequence y: NOTHING is not set", "sequence u: NOTHING is not set",
+                          "sequence z: /data/z is not there"));
   EXPECT_EQ(file.sequences[0].path, "/data/x");
+  std::string available;
+  for (const Configuration& each : configurations(file, {}, lists_)) {
+    available += each.folder + (each.runs_today() ? " " : " not ");
+  }
+  EXPECT_EQ(available, "x y not u not z not w ");
 
   SuiteFile needed = parse("[[sequence]]\npath = '${NOTHING}/y'\n");
   EXPECT_EQ(
@@ -246,7 +278,7 @@ TEST(SuiteTableTest, HasARowAConfigurationIn80Columns) {
        {},
        1.5,
        ""},
-      {"x", "", 0, {}, {}, {}, {}, ""}};
+      {"x", "all settings", 0, {}, {}, {}, {}, ""}};
   const std::string table = suite_table(results, false);
   EXPECT_THAT(table, HasSubstr("  serial                             3      13.90      71.900     "
                                "2.15         -\n"));
