@@ -6,8 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/small_recording.h"
-#include "support/program.h"
+#include "cli/small_result_test.h"
 
 namespace slambench {
 namespace {
@@ -16,18 +15,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-class ExportTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    program_.folder().write("small.raw", testing::small_raw(8));
-    ASSERT_EQ(program_.run(testing::small_run()).status, 0);
-  }
-  std::string file(const std::string& name) const {
-    return testing::Program::contents(program_.folder().path(name));
-  }
-
-  testing::Program program_{SLAMBENCH_PROGRAM};
-};
+class ExportTest : public testing::SmallResultTest {};
 
 TEST_F(ExportTest, WritesEveryFormat) {
   const auto csv = program_.run({"export", "out", "--format", "csv"});

@@ -4,8 +4,7 @@
 // `slambench report` as its user meets it.
 #include <gmock/gmock.h>
 
-#include "cli/small_recording.h"
-#include "support/program.h"
+#include "cli/small_result_test.h"
 
 namespace slambench {
 namespace {
@@ -13,15 +12,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-class ReportTest : public ::testing::Test {
+class ReportTest : public testing::SmallResultTest {
  protected:
-  void SetUp() override {
-    program_.folder().write("small.raw", testing::small_raw(8));
-    ASSERT_EQ(program_.run(testing::small_run()).status, 0);
-  }
-  std::string file(const std::string& name) const {
-    return testing::Program::contents(program_.folder().path(name));
-  }
   /// Whether a report can be made here; without plotly.js the program must say so.
   bool available() {
     const auto outcome = program_.run({"report", "out", "-o", "try.html"});
@@ -31,8 +23,6 @@ class ReportTest : public ::testing::Test {
     }
     return outcome.status != 4;
   }
-
-  testing::Program program_{SLAMBENCH_PROGRAM};
 };
 
 TEST_F(ReportTest, WritesAPage) {
