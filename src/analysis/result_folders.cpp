@@ -8,6 +8,7 @@
 #include <set>
 #include <system_error>
 
+#include "analysis/suite_index.h"
 #include "core/error.h"
 
 namespace slambench {
@@ -61,7 +62,7 @@ std::vector<std::string> result_folders_in(const std::string& folder) {
       continue;
     }
     std::error_code error;
-    if (!fs::exists(fs::path(folder) / "suite.json", error)) continue;
+    if (!fs::exists(fs::path(folder) / suite_index_name, error)) continue;
     for (const fs::path& deeper : visible_folders_in(inside)) {
       if (is_result_folder(deeper)) found.push_back(deeper);
     }

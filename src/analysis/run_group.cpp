@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <set>
 
 #include "analysis/result_folders.h"
@@ -60,42 +61,6 @@ std::vector<std::string> parts(const std::string& argument) {
   return list;
 }
 
-void require_result(const StoredRun& run) {
-  const auto reason = [&](const std::string& words) {
-    throw InputError(fmt::format("{}: the run {}, expected one that counts", run.path, words));
-  };
-  if (!run.complete()) reason("was interrupted");
-  if (!run.valid()) reason("is not valid");
-}
-
-std::string value_at(const StoredRun& run, const std::string& place) {
-  if (const auto it = run.texts.find(place); it != run.texts.end()) return it->second;
-  const auto it = run.numbers.find(place);
-  return it == run.numbers.end() ? nothing : fmt::format("{}", it->second);
-}
-
-/// "kinectfusion.volume-size" of "parameters.kinectfusion.volume-size.value"; else nothing.
-std::string parameter_in(const std::string& place) {
-  constexpr std::string_view head = "parameters.", tail = ".value";
-  if (!place.starts_with(head) || !place.ends_with(tail)) return "";
-  return place.substr(head.size(), place.size() - head.size() - tail.size());
-}
-
-std::set<std::string> parameters_of(const StoredRun& base, const StoredRun& other) {
-  std::set<std::string> names;
-  for (const StoredRun* run : {&base, &other}) {
-    for (const auto& [place, value] : run->texts) {
-      const std::string parameter = parameter_in(place);
-      if (!parameter.empty()) names.insert(parameter);
-    }
-  }
-  return names;
-}
-
-std::string parameter(const StoredRun& run, const std::string& group_and_name) {
-  return run.text(fmt::format("parameters.{}.value", group_and_name));
-}
-
 std::string short_text(const std::string& text) {
   constexpr std::size_t most = 40;
   return text.size() <= most ? text : text.substr(0, most - 3) + "...";
@@ -123,16 +88,21 @@ std::string list_text(const std::vector<RunDifference>& list) {
 }
 
 bool in_real_time(const StoredRun& run) {
-  const std::string fps = parameter(run, "run.fps");
-  return parameter(run, "run.real-time") == "true" || !(fps.empty() || fps == "0");
+  const std::string fps = run.parameter("run.fps").value_or("");
+  return run.parameter("run.real-time") == "true" || !(fps.empty() || fps == "0");
 }
 
 std::vector<RunDifference> differences(const StoredRun& base, const StoredRun& other,
                                        const ParameterRoles& roles) {
   std::vector<RunDifference> found;
-  const auto add = [&](Kind kind, std::string key, const std::string& place) {
-    const std::string b = value_at(base, place), o = value_at(other, place);
-    if (b != o) found.push_back({kind, std::move(key), b, o});
+  using Value = std::optional<std::string>;
+  const auto add = [&](Kind kind, std::string_view key, const Value& b, const Value& o) {
+    if (b == o) return;
+    found.push_back({kind, std::string(key), b.value_or(nothing), o.value_or(nothing)});
+  };
+  const auto add_place = [&](Kind kind, std::string_view key, std::string_view place) {
+    const std::string at(place);
+    add(kind, key, base.value_text(at), other.value_text(at));
   };
   // In real time the hash tells which frames were in time, not what the sequence holds. Without,
   // equal hashes are equal sequences, whatever they are called.
@@ -142,18 +112,20 @@ std::vector<RunDifference> differences(const StoredRun& base, const StoredRun& o
   for (const std::string_view place : input_places) {
     if (place == "sequence.input_hash" && real_time) continue;
     if (place == "sequence.name" && same_input) continue;
-    add(Kind::task, std::string(place), std::string(place));
+    add_place(Kind::task, place, place);
   }
-  for (const std::string& full : parameters_of(base, other)) {
+  std::set<std::string> parameters = base.parameters();
+  parameters.merge(other.parameters());
+  for (const std::string& full : parameters) {
     const auto role = roles.find(full);
     const bool known = role != roles.end();
     if (known && role->second == ParameterRole::bookkeeping) continue;
     const bool how = known && role->second == ParameterRole::implementation;
     add(how ? Kind::implementation : Kind::task, full.substr(full.find('.') + 1),
-        fmt::format("parameters.{}.value", full));
+        base.parameter(full), other.parameter(full));
   }
   for (const std::string_view place : build_places) {
-    add(Kind::build, std::string(place.substr(place.find('.') + 1)), std::string(place));
+    add_place(Kind::build, place.substr(place.find('.') + 1), place);
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.kind < b.kind; });
@@ -180,7 +152,7 @@ RunGroup read_run_group(const std::string& argument, const ParameterRoles& roles
   for (const std::string& part : parts(argument)) {
     for (const std::string& path : expanded(part)) {
       group.runs.push_back(read_stored_run(path));
-      require_result(group.runs.back());
+      require_counts(group.runs.back());
     }
   }
   std::stable_sort(group.runs.begin(), group.runs.end(),

@@ -18,6 +18,9 @@ using Json = nlohmann::json;
 
 constexpr const char* record_name = "record.json";
 
+/// What stands before and after a parameter's name in the place of its value.
+constexpr std::string_view parameter_head = "parameters.", parameter_tail = ".value";
+
 /// Members of members under their names joined by dots. Lists have no place of their own.
 void flatten(const Json& json, const std::string& place, StoredRun* run) {
   if (json.is_object()) {
@@ -47,6 +50,32 @@ void read_repeats(const Json& figures, StoredRun* run) {
 std::string StoredRun::text(const std::string& place) const {
   const auto it = texts.find(place);
   return it == texts.end() ? "" : it->second;
+}
+
+std::optional<std::string> StoredRun::value_text(const std::string& place) const {
+  if (const auto it = texts.find(place); it != texts.end()) return it->second;
+  const auto it = numbers.find(place);
+  return it == numbers.end() ? std::nullopt : std::optional(fmt::format("{}", it->second));
+}
+
+std::set<std::string> StoredRun::parameters() const {
+  std::set<std::string> names;
+  for (const auto& [place, value] : texts) {
+    if (!place.starts_with(parameter_head) || !place.ends_with(parameter_tail)) continue;
+    names.insert(place.substr(parameter_head.size(),
+                              place.size() - parameter_head.size() - parameter_tail.size()));
+  }
+  return names;
+}
+
+std::optional<std::string> StoredRun::parameter(const std::string& group_and_name) const {
+  return value_text(fmt::format("{}{}{}", parameter_head, group_and_name, parameter_tail));
+}
+
+void require_counts(const StoredRun& run) {
+  if (run.complete() && run.valid()) return;
+  throw InputError(fmt::format("{}: the run {}, expected one that counts", run.path,
+                               run.complete() ? "is not valid" : "was interrupted"));
 }
 
 StoredRun parse_stored_run(std::string_view text, const std::string& path) {

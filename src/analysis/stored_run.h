@@ -3,6 +3,8 @@
 #pragma once
 
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,11 +24,20 @@ struct StoredRun {
 
   /// "" when there is none.
   std::string text(const std::string& place) const;
+  /// A text, or a number as text; nothing when there is neither.
+  std::optional<std::string> value_text(const std::string& place) const;
+  /// "kinectfusion.mu": of every parameter.
+  std::set<std::string> parameters() const;
+  /// Its value by that name; nothing when the run has no such parameter.
+  std::optional<std::string> parameter(const std::string& group_and_name) const;
   /// Measured repeats.
   std::size_t run_count() const { return repeats.empty() ? 1 : repeats.begin()->second.size(); }
   bool complete() const { return text("complete") == "true"; }
   bool valid() const { return text("valid") == "true"; }
 };
+
+/// Throws InputError for a run that was interrupted or is not valid.
+void require_counts(const StoredRun& run);
 
 /// From a result folder or a record.json. Throws InputError naming the file for what cannot be read
 /// or is not the record of a run.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -35,37 +36,17 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 15> facts{{
     {"measured_frames", "time.measured_frames"},
 }};
 
-/// "mu" of "parameters.kinectfusion.mu.value"; empty for any other place.
-std::string parameter_at(std::string_view place) {
-  constexpr std::string_view head = "parameters.", tail = ".value";
-  if (!place.starts_with(head) || !place.ends_with(tail)) return "";
-  place = place.substr(head.size(), place.size() - head.size() - tail.size());
-  return std::string(place);
-}
-
-/// "kinectfusion.mu" of every parameter that any run has.
-std::set<std::string> parameters_of(const std::vector<ExportRun>& runs) {
-  std::set<std::string> names;
-  for (const ExportRun& each : runs) {
-    for (const auto& [place, value] : each.run.texts) {
-      if (std::string name = parameter_at(place); !name.empty()) names.insert(std::move(name));
-    }
-  }
-  return names;
-}
-
 /// A text or a number, as a field; empty when there is none.
+std::string field(const std::optional<std::string>& value) { return csv_field(value.value_or("")); }
 std::string field_at(const StoredRun& run, std::string_view place) {
-  const std::string key(place);
-  if (const auto it = run.texts.find(key); it != run.texts.end()) return csv_field(it->second);
-  const auto it = run.numbers.find(key);
-  return it == run.numbers.end() ? "" : fmt::format("{}", it->second);
+  return field(run.value_text(std::string(place)));
 }
 
 }  // namespace
 
 std::string wide_csv(const std::vector<ExportRun>& runs, const ParameterRoles&) {
-  const std::set<std::string> parameters = parameters_of(runs);
+  std::set<std::string> parameters;  // that any run has
+  for (const ExportRun& each : runs) parameters.merge(each.run.parameters());
   std::string text = "run,repeats";
   for (const auto& [column, place] : facts) text += fmt::format(",{}", column);
   for (const NamedFigure& figure : figure_table()) text += fmt::format(",{}", figure.name);
@@ -79,7 +60,7 @@ std::string wide_csv(const std::vector<ExportRun>& runs, const ParameterRoles&) 
       text += value ? fmt::format(",{}", *value) : ",";
     }
     for (const std::string& parameter : parameters) {
-      text += fmt::format(",{}", field_at(run, fmt::format("parameters.{}.value", parameter)));
+      text += fmt::format(",{}", field(run.parameter(parameter)));
     }
     text += line_end;
   }

@@ -37,12 +37,6 @@ std::string command_for(const ExportRun& each) {
                      std::filesystem::path(each.run.path).parent_path().string(), file);
 }
 
-void require_result(const ExportRun& each) {
-  const char* what = !each.run.complete() ? "was interrupted" : "is not valid";
-  if (each.run.complete() && each.run.valid()) return;
-  throw InputError(fmt::format("{}: the run {}, expected one that counts", each.run.path, what));
-}
-
 /// "living-room/2", with the backend where runs of several are there: two files of one backend each
 /// have the same names then, and can be compared.
 std::string prefix(const StoredRun& run, bool with_backend) {
@@ -56,7 +50,7 @@ std::vector<Configuration> configurations(const std::vector<ExportRun>& runs,
   for (const ExportRun& each : runs) backends.insert(each.run.text("provenance.backend"));
   std::vector<Configuration> all;
   for (const ExportRun& each : runs) {
-    require_result(each);
+    require_counts(each.run);
     const std::string name = prefix(each.run, backends.size() > 1);
     auto it = std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.name == name; });
     if (it == all.end()) it = all.insert(all.end(), {name, {}});

@@ -32,8 +32,7 @@ constexpr const char* laid_out =
     "Acquiring a frame and processing it begin when they were measured to begin. In processing, "
     "stages follow one another in the order of the pipeline, without the moments between them, and "
     "within a stage its kernels, each once with the time of all its calls: lengths are measured, "
-    "these places are "
-    "not.";
+    "these places are not.";
 constexpr const char* no_starts =
     "This result folder does not have the times at which frames began: they are laid end to end.";
 constexpr const char* own_track =

@@ -13,7 +13,8 @@
 
 #include "analysis/figure.h"
 #include "analysis/result_folders.h"
-#include "io/files.h"
+#include "analysis/suite_index.h"
+#include "core/error.h"
 #include "results/repetition.h"
 
 namespace slambench {
@@ -175,40 +176,48 @@ std::vector<std::string> folders_of(const std::vector<Group>& groups) {
   return folders;
 }
 
-/// What a suite says of a configuration.
+/// What a suite says of a run.
 struct SuiteEntry {
-  std::string title, sequence, variant;
-  std::size_t order = 0;
+  const SuiteIndex* suite;
+  std::size_t order;  ///< of the configuration
 };
 
-std::string text(const Json& json, const char* key) {
-  const auto it = json.find(key);
-  return it != json.end() && it->is_string() ? it->get<std::string>() : "";
-}
-
-/// Nothing for a run that no suite made, or of which it does not say what it is.
-std::optional<SuiteEntry> suite_entry(const ReportRun& run) {
-  const fs::path configuration = parent_of(run);
-  const fs::path file = configuration.parent_path() / "suite.json";
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) return std::nullopt;
-  const Json suite = Json::parse(read_file(file), nullptr, false);
-  if (!suite.is_object() || text(suite, "format") != "slambench-suite") return std::nullopt;
-  const Json list = suite.value("configurations", Json());
-  if (!list.is_array()) return std::nullopt;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    if (!list[i].is_object() || text(list[i], "folder") != configuration.filename()) continue;
-    SuiteEntry entry{text(suite, "title"), text(list[i], "sequence"), text(list[i], "variant"), i};
-    if (!entry.sequence.empty() && !entry.variant.empty()) return entry;
+/// The suites that runs are of; each is read once.
+class Suites {
+ public:
+  /// Nothing for a run that no suite made, or of which it does not say what it is.
+  std::optional<SuiteEntry> entry_of(const ReportRun& run) {
+    const fs::path configuration = parent_of(run);
+    const auto& index = index_in(configuration.parent_path());
+    if (!index) return std::nullopt;
+    const auto& all = index->configurations;
+    const auto it = std::find_if(all.begin(), all.end(), [&](const auto& c) {
+      return c.folder == configuration.filename();
+    });
+    if (it == all.end() || it->sequence.empty() || it->variant.empty()) return std::nullopt;
+    return SuiteEntry{&*index, static_cast<std::size_t>(it - all.begin())};
   }
-  return std::nullopt;
-}
+
+ private:
+  const std::optional<SuiteIndex>& index_in(const fs::path& folder) {
+    const auto [it, is_new] = indexes_.try_emplace(folder);
+    const fs::path file = folder / suite_index_name;
+    std::error_code error;
+    if (!is_new || !fs::is_regular_file(file, error)) return it->second;
+    try {
+      it->second = read_suite_index(file);
+    } catch (const InputError&) {  // the runs can be told apart without it
+    }
+    return it->second;
+  }
+
+  std::map<fs::path, std::optional<SuiteIndex>> indexes_;
+};
 
 /// What `key` of a difference is in a run: the value of a parameter, or of the build.
 std::string value_of_key(const StoredRun& run, const std::string& key) {
-  const std::string tail = fmt::format(".{}.value", key);
-  for (const auto& [place, value] : run.texts) {
-    if (place.starts_with("parameters.") && place.ends_with(tail)) return value;
+  for (const std::string& name : run.parameters()) {
+    if (name.ends_with("." + key)) return run.parameter(name).value_or("");
   }
   return run.text(fmt::format("provenance.{}", key));
 }
@@ -255,25 +264,27 @@ void make_variants_unique(std::vector<ReportRun>* runs) {
 
 /// As the suite of all runs names and orders them; false when there is none.
 bool follow_suite(ReportEntries* entries) {
-  std::vector<std::pair<std::size_t, ReportRun>> ordered;
+  Suites suites;
   std::vector<SuiteEntry> said;
   for (const ReportRun& run : entries->runs) {
-    auto entry = suite_entry(run);
+    const auto entry = suites.entry_of(run);
     if (!entry) return false;
-    said.push_back(std::move(*entry));
+    said.push_back(*entry);
   }
+  std::vector<std::pair<std::size_t, ReportRun>> ordered;
+  entries->title = said.front().suite->title;
   for (std::size_t i = 0; i < said.size(); ++i) {
+    const auto& [suite, order] = said[i];
     ReportRun& run = entries->runs[i];
-    run.sequence = said[i].sequence;
-    run.variant = said[i].variant;
+    run.sequence = suite->configurations[order].sequence;
+    run.variant = suite->configurations[order].variant;
     run.name = fmt::format("{}, {}", run.sequence, run.variant);
-    ordered.emplace_back(said[i].order, std::move(run));
+    if (suite->title != entries->title) entries->title.clear();
+    ordered.emplace_back(order, std::move(run));
   }
   std::stable_sort(ordered.begin(), ordered.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  entries->title = said.front().title;
   for (std::size_t i = 0; i < ordered.size(); ++i) {
-    if (said[i].title != entries->title) entries->title.clear();
     entries->runs[i] = std::move(ordered[i].second);
   }
   return true;

@@ -11,11 +11,12 @@
 #include <cerrno>
 #include <charconv>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <set>
 
+#include "analysis/figure.h"
 #include "analysis/result_folders.h"
 #include "analysis/stored_run.h"
+#include "analysis/suite_index.h"
 #include "core/error.h"
 #include "io/files.h"
 
@@ -23,10 +24,7 @@ namespace slambench {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
-constexpr const char* suite_format = "slambench-suite";
-constexpr int suite_version = 1;
 constexpr const char* warmup_folder = ".warm-up";
 
 [[noreturn]] void fail(const fs::path& path, const std::error_code& error) {
@@ -49,14 +47,6 @@ bool is_leftover(const fs::path& path) {
                                    (name.starts_with(".slambench-") && name.ends_with(".tmp")));
 }
 
-Json as_json(const Configuration& configuration) {
-  Json parameters = Json::object();
-  for (const auto& [name, value] : configuration.assignments) parameters[name] = value;
-  return {{"folder", configuration.folder},   {"sequence", configuration.sequence_name},
-          {"variant", configuration.variant}, {"path", configuration.sequence},
-          {"preset", configuration.preset},   {"parameters", parameters}};
-}
-
 /// A suite.json: the program that wrote it, what identifies configurations, and their folders.
 struct EarlierSuite {
   std::string executable;
@@ -64,35 +54,23 @@ struct EarlierSuite {
 };
 
 EarlierSuite read_suite(const std::string& file) {
-  EarlierSuite suite;
-  const Json json = Json::parse(read_file(file), nullptr, false);
-  if (!json.is_object() || json.value("format", Json()) != suite_format ||
-      json.value("version", Json()) != suite_version) {
-    throw InputError(fmt::format("{}: is not what this version of slambench suite writes", file));
-  }
-  try {
-    suite.executable = json.value("executable", "");
-    for (const Json& from : json.at("configurations")) {
-      Configuration to;
-      from.at("folder").get_to(to.folder);
-      from.at("sequence").get_to(to.sequence_name);
-      from.at("path").get_to(to.sequence);
-      from.at("preset").get_to(to.preset);
-      for (const auto& [name, value] : from.at("parameters").items()) {
-        to.assignments.push_back({name, value.get<std::string>()});
-      }
-      suite.configurations.push_back(std::move(to));
-    }
-  } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: {}", file, error.what()));
-  }
+  SuiteIndex index = read_suite_index(file);
+  EarlierSuite suite{index.executable, {}};
   std::set<std::string> folders;
-  for (const Configuration& c : suite.configurations) {
-    if (is_folder_name(c.folder) && folders.insert(c.folder).second) continue;
-    throw InputError(
-        fmt::format("{}: folder: found '{}', expected a name that no other "
-                    "configuration has and no path",
-                    file, c.folder));
+  for (SuiteIndex::Configuration& from : index.configurations) {
+    if (!is_folder_name(from.folder) || !folders.insert(from.folder).second) {
+      throw InputError(
+          fmt::format("{}: folder: found '{}', expected a name that no other "
+                      "configuration has and no path",
+                      file, from.folder));
+    }
+    Configuration to;
+    to.folder = std::move(from.folder);
+    to.sequence_name = std::move(from.sequence);
+    to.sequence = std::move(from.path);
+    to.preset = std::move(from.preset);
+    for (auto& [name, value] : from.parameters) to.assignments.push_back({name, value});
+    suite.configurations.push_back(std::move(to));
   }
   return suite;
 }
@@ -133,12 +111,6 @@ std::string stranger_text(const std::string& name, const EarlierSuite& earlier,
   return fmt::format("is of other settings: {}", fmt::join(least, "; "));
 }
 
-/// What the record has at the place, a number as text; "" when nothing.
-std::string value_at(const StoredRun& run, const std::string& place) {
-  const auto number = run.numbers.find(place);
-  return number == run.numbers.end() ? run.text(place) : fmt::format("{}", number->second);
-}
-
 /// Why the run was not made by this build on this machine; "" when it was.
 std::string other_build(const StoredRun& run, const SuiteBuild& build,
                         const std::string& executable) {
@@ -153,7 +125,7 @@ std::string other_build(const StoredRun& run, const SuiteBuild& build,
       {"cores", fmt::format("{}", here.cores)},
       {"os", here.os}};
   for (const auto& [name, value] : expected) {
-    const std::string found = value_at(run, "provenance." + name);
+    const std::string found = run.value_text("provenance." + name).value_or("");
     if (found == value) continue;
     return fmt::format("was made by another build or machine: {} is '{}', here '{}'", name, found,
                        value);
@@ -171,7 +143,7 @@ std::string other_settings(const StoredRun& run, const Configuration& configurat
                            const std::vector<ParameterList>& lists) {
   const auto difference = [&](std::string_view group, std::string_view name,
                               const std::string& value) {
-    const std::string found = value_at(run, fmt::format("parameters.{}.{}.value", group, name));
+    const std::string found = run.parameter(fmt::format("{}.{}", group, name)).value_or("");
     return found == value ? ""
                           : fmt::format("is of other settings: {} {}, expected {}", name,
                                         found.empty() ? "not set" : found, value);
@@ -237,11 +209,11 @@ void keep_folders(const std::string& folder, std::vector<Configuration>* configu
   if (!fs::is_directory(folder, error)) {
     throw UsageError(folder + ": is a file, expected a folder");
   }
-  const fs::path file = fs::path(folder) / suite_name;
+  const fs::path file = fs::path(folder) / suite_index_name;
   if (!fs::exists(file, error)) {
     if (std::ranges::all_of(entries(folder), is_leftover)) return;
     throw UsageError(fmt::format("{}: holds files but no suite ({}); choose another folder", folder,
-                                 suite_name));
+                                 suite_index_name));
   }
   const std::vector<Configuration> earlier = read_suite(file).configurations;
   std::vector<Configuration*> fresh;
@@ -256,37 +228,28 @@ void keep_folders(const std::string& folder, std::vector<Configuration>* configu
       if (configuration.sequence.empty()) configuration.sequence = same->sequence;
     }
   }
-  const auto taken = [&](const Configuration* self, const std::string& name) {
-    return std::ranges::find(earlier, name, &Configuration::folder) != earlier.end() ||
-           std::ranges::any_of(*configurations, [&](const Configuration& other) {
-             return &other != self && other.folder == name;
-           });
-  };
+  std::set<std::string> used;
+  for (const Configuration& c : earlier) used.insert(c.folder);
   for (Configuration* configuration : fresh) {
-    const std::string name = configuration->folder;
-    for (int i = 2; taken(configuration, configuration->folder); ++i) {
-      configuration->folder = fmt::format("{}-{}", name, i);
-    }
+    configuration->folder = unused_folder_name(configuration->folder, &used);
   }
 }
 
 void write_suite(const std::string& folder, const std::string& title,
                  const std::vector<Configuration>& configurations, const SuiteBuild& build) {
-  Json json = {{"format", suite_format},
-               {"version", suite_version},
-               {"title", title},
-               {"executable", build.executable}};
-  json["configurations"] = Json::array();
-  for (const Configuration& c : configurations) json["configurations"].push_back(as_json(c));
-  write_file(fs::path(folder) / suite_name,
-             json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  SuiteIndex index{title, build.executable, {}};
+  for (const Configuration& c : configurations) {
+    index.configurations.push_back(
+        {c.folder, c.sequence_name, c.variant, c.sequence, c.preset, {}});
+    for (const auto& [name, value] : c.assignments) {
+      index.configurations.back().parameters.emplace_back(name, value);
+    }
+  }
+  write_file(fs::path(folder) / suite_index_name, suite_index_json(index));
 }
 
 RunCost cost_of(const StoredRun& run) {
-  const auto number = [&](const char* place) {
-    const auto it = run.numbers.find(place);
-    return it == run.numbers.end() ? 0.0 : it->second;
-  };
+  const auto number = [&](const char* place) { return value_of(place, run).value_or(0); };
   return {number("time.wall_s") + number("time.start_up.seconds"),
           static_cast<int>(number("frames.processed"))};
 }
@@ -296,7 +259,7 @@ SuiteResults find_results(const std::string& folder,
                           const std::vector<ParameterList>& lists) {
   SuiteResults results;
   std::error_code error;
-  const fs::path file = fs::path(folder) / suite_name;
+  const fs::path file = fs::path(folder) / suite_index_name;
   if (!fs::exists(file, error)) return results;
   const EarlierSuite earlier = read_suite(file);
   for (const std::string& path : result_folders_in(folder)) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "analysis/suite_index.h"
 #include "config/settings.h"
 #include "core/error.h"
 
@@ -31,15 +32,6 @@ std::string folder_name(const std::string& words) {
   for (char& c : name) c = is_plain(c) ? c : '-';
   if (name.starts_with('.')) name.front() = '-';  // hidden folders hold no results
   return name;
-}
-
-/// The first of NAME, NAME-2, NAME-3, ... that is not used; it is then.
-std::string unused_name(const std::string& name, std::set<std::string>* used) {
-  std::string candidate = name;
-  for (int i = 2; !is_folder_name(candidate) || !used->insert(candidate).second; ++i) {
-    candidate = fmt::format("{}-{}", name, i);
-  }
-  return candidate;
 }
 
 /// The suite's axes with those of the group in their places.
@@ -160,7 +152,7 @@ void add_combinations(const SuiteFile& file, const SuiteSequence& sequence, cons
     configuration.available = sequence.available;
     layers.write_to(&configuration);
     const std::string words = variant.empty() ? sequence.name : sequence.name + " " + variant;
-    configuration.folder = unused_name(folder_name(words), folders);
+    configuration.folder = unused_folder_name(folder_name(words), folders);
     all->push_back(std::move(configuration));
   } while (advance(&place, axes));
 }
@@ -202,7 +194,15 @@ std::string with_environment(
 
 bool is_folder_name(const std::string& name) {
   return !name.empty() && name.size() <= longest_name && !name.starts_with('.') &&
-         name != suite_name && std::ranges::all_of(name, is_plain);
+         name != suite_index_name && std::ranges::all_of(name, is_plain);
+}
+
+std::string unused_folder_name(const std::string& name, std::set<std::string>* used) {
+  std::string candidate = name;
+  for (int i = 2; !is_folder_name(candidate) || !used->insert(candidate).second; ++i) {
+    candidate = fmt::format("{}-{}", name, i);
+  }
+  return candidate;
 }
 
 std::optional<std::string> Configuration::value(std::string_view parameter) const {

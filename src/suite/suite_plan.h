@@ -5,6 +5,7 @@
 #include <compare>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,12 +13,12 @@
 
 namespace slambench {
 
-/// The description of a suite in its folder.
-inline constexpr const char* suite_name = "suite.json";
-
 /// Whether a configuration's folder can have this name: letters, digits, '_', '-' and '.', not
 /// hidden, not that of suite.json, and short enough for any file system.
 bool is_folder_name(const std::string& name);
+
+/// The first of NAME, NAME-2, NAME-3, ... that can be one and is not used; it is then.
+std::string unused_folder_name(const std::string& name, std::set<std::string>* used);
 
 /// One cell of the matrix: what is run, as often as it says.
 struct Configuration {

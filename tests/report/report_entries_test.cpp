@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "analysis/suite_index.h"
 #include "report/report_data.h"
 #include "report/sample_results.h"
 
@@ -139,10 +140,11 @@ TEST_F(ReportEntriesTest, FollowTheSuiteThatMadeThem) {
   add("out/kt3-b/1", run(1, "openmp"));
   add("out/kt3-b/2", run(2, "openmp"));
   add("out/kt3-a/1", run(4));
-  folder_.write("out/suite.json", R"({"format": "slambench-suite", "version": 1, "title": "Paper",
-    "configurations": [
-      {"folder": "kt3-a", "sequence": "living room 3", "variant": "C++"},
-      {"folder": "kt3-b", "sequence": "living room 3", "variant": "OpenMP"}]})");
+  folder_.write("out/suite.json",
+                suite_index_json({"Paper",
+                                  "",
+                                  {{"kt3-a", "living room 3", "C++", "", "", {}},
+                                   {"kt3-b", "living room 3", "OpenMP", "", "", {}}}}));
   const ReportEntries found = entries();
   EXPECT_EQ(found.title, "Paper");
   EXPECT_THAT(names(found), ElementsAre("living room 3, C++", "living room 3, OpenMP"));
