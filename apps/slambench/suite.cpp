@@ -11,6 +11,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -157,27 +158,24 @@ SuitePlan make_plan(const SuiteArguments& arguments, const std::vector<Parameter
   return plan;
 }
 
-/// Opens every sequence, so that what is wrong with one is told now, and has it rendered unless it
-/// is to be looked at only. Returns the frames that each configuration runs over, 0 where it is
-/// left out.
-std::vector<int> prepare_sequences(const std::vector<Configuration>& configurations, bool render,
-                                   bool show, const InterruptFlag& interrupt) {
+/// Opens the sequence of every run, so that what is wrong with one is told now, and has it rendered
+/// unless it is to be looked at only. Returns the frames that each configuration runs over, 0 where
+/// it has no run.
+std::vector<int> prepare_sequences(const std::vector<Configuration>& configurations,
+                                   const std::vector<PlannedRun>& runs, bool render, bool show,
+                                   const InterruptFlag& interrupt) {
+  std::set<std::size_t> used;
+  for (const PlannedRun& run : runs) used.insert(run.configuration);
   std::map<std::vector<std::string>, int> known;
-  std::vector<int> frames;
-  for (const Configuration& configuration : configurations) {
-    if (!configuration.runs_today()) {
-      frames.push_back(0);
-      continue;
-    }
+  std::vector<int> frames(configurations.size(), 0);
+  for (const std::size_t i : used) {
+    const Configuration& configuration = configurations[i];
     AllParameters p;
-    const std::vector<ParameterList> of_input = {p.source.describe(), p.run.describe()};
-    std::vector<std::string> key = {configuration.sequence, configuration.preset};
-    for (const auto& [name, value] : configuration.assignments) {
-      if (find(of_input, name) != nullptr) key.insert(key.end(), {name, value});
-    }
-    auto it = known.find(key);
+    const auto lists = p.lists();
+    const std::vector<std::string> input = input_of(configuration, lists);
+    auto it = known.find(input);
     if (it == known.end()) {
-      Settings settings(p.lists());
+      Settings settings(lists);
       if (!configuration.preset.empty()) settings.apply(find_preset(configuration.preset));
       for (const auto& [name, value] : configuration.assignments) {
         settings.set(name, value, Origin::command_line, "command line");
@@ -185,9 +183,9 @@ std::vector<int> prepare_sequences(const std::vector<Configuration>& configurati
       const auto source = open_sequence(configuration.sequence, p.source, &settings);
       const int count = frames_to_run(source->info(), p.run);
       if (render) prepare_sequence(*source, count, show, interrupt);
-      it = known.emplace(key, count).first;
+      it = known.emplace(input, count).first;
     }
-    frames.push_back(it->second);
+    frames[i] = it->second;
   }
   return frames;
 }
@@ -273,14 +271,13 @@ std::string run_name(const Configuration& configuration, const PlannedRun& run) 
 class SuiteRunner {
  public:
   SuiteRunner(const SuiteArguments& arguments, const SuitePlan& plan, std::string folder,
-              std::vector<int> frames, SuiteResults results)
+              std::vector<PlannedRun> runs, std::vector<int> frames, SuiteResults results)
       : arguments_(arguments),
         configurations_(plan.configurations),
         folder_(std::move(folder)),
         frames_(std::move(frames)),
         results_(std::move(results)),
-        runs_(runs_in_turns(configurations_,
-                            [this](const PlannedRun& r) { return results_.done.contains(r); })) {
+        runs_(std::move(runs)) {
     for (const auto& [run, cost] : results_.done) times_.add(of(run), cost);
   }
 
@@ -443,10 +440,13 @@ ExitStatus run(SuiteArguments& arguments) {
   SuiteResults results = find_results(folder, plan.configurations, build, lists);
   if (!arguments.set_aside) require_own(folder, results.foreign);
   const InterruptFlag interrupt;
+  auto runs = runs_in_turns(plan.configurations,
+                            [&](const PlannedRun& r) { return results.done.contains(r); });
   auto frames =
-      prepare_sequences(plan.configurations, !arguments.dry_run, !arguments.quiet, interrupt);
+      prepare_sequences(plan.configurations, runs, !arguments.dry_run, !arguments.quiet, interrupt);
   if (!arguments.dry_run) take_over(folder, plan, build, results);
-  SuiteRunner runner(arguments, plan, folder, std::move(frames), std::move(results));
+  SuiteRunner runner(arguments, plan, folder, std::move(runs), std::move(frames),
+                     std::move(results));
   if (arguments.dry_run) {
     print(listing(plan, runner, arguments.program));
     return ExitStatus::ok;

@@ -15,6 +15,7 @@
 
 #include "analysis/figure.h"
 #include "analysis/result_folders.h"
+#include "analysis/run_group.h"
 #include "analysis/stored_run.h"
 #include "analysis/suite_index.h"
 #include "core/error.h"
@@ -26,6 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* warmup_folder = ".warm-up";
+constexpr const char* input_hash = "sequence.input_hash";
 
 [[noreturn]] void fail(const fs::path& path, const std::error_code& error) {
   throw Error(ExitStatus::failed, fmt::format("{}: {}", path.string(), error.message()));
@@ -159,6 +161,24 @@ std::string other_settings(const StoredRun& run, const Configuration& configurat
   return text;
 }
 
+/// What a run that counts was run over.
+struct RunInput {
+  PlannedRun run;
+  std::string path;
+  fs::file_time_type written;  ///< its record: finer than the start that this tells of
+  std::string hash;            ///< of the frames; "" in real time, where each run has others
+};
+
+/// Takes out what was run before the sequence became another one.
+void refuse_other_inputs(const std::vector<RunInput>& runs, SuiteResults* results) {
+  const RunInput& newest = *std::ranges::max_element(runs, {}, &RunInput::written);
+  for (const RunInput& each : runs) {
+    if (each.hash == newest.hash) continue;
+    results->done.erase(each.run);
+    results->foreign.push_back({each.path, fmt::format("has another input than {}", newest.path)});
+  }
+}
+
 /// The run whose place in the suite's folder this is, CONFIGURATION/REPETITION; nothing when none.
 std::optional<PlannedRun> run_at(const fs::path& path,
                                  const std::vector<Configuration>& configurations) {
@@ -262,6 +282,7 @@ SuiteResults find_results(const std::string& folder,
   const fs::path file = fs::path(folder) / suite_index_name;
   if (!fs::exists(file, error)) return results;
   const EarlierSuite earlier = read_suite(file);
+  std::map<std::vector<std::string>, std::vector<RunInput>> inputs;  // of runs that count
   for (const std::string& path : result_folders_in(folder)) {
     const fs::path place = fs::path(path).lexically_relative(folder);
     const auto run = run_at(place, configurations);
@@ -284,11 +305,15 @@ SuiteResults find_results(const std::string& folder,
         results.half.push_back({path, "is not valid"});
       } else {
         results.done[*run] = cost_of(stored);
+        inputs[input_of(configurations[run->configuration], lists)].push_back(
+            {*run, path, fs::last_write_time(stored.path, error),
+             in_real_time(stored) ? "" : stored.text(input_hash)});
       }
     } catch (const InputError& unreadable) {
       results.half.push_back({path, unreadable.what()});
     }
   }
+  for (const auto& [input, runs] : inputs) refuse_other_inputs(runs, &results);
   return results;
 }
 

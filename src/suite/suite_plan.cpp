@@ -288,6 +288,17 @@ std::vector<std::string> run_arguments(const Configuration& configuration) {
   return words;
 }
 
+std::vector<std::string> input_of(const Configuration& configuration, const Lists& lists) {
+  std::vector<std::string> words = {configuration.sequence, configuration.preset};
+  for (const ParameterList& list : lists) {
+    if (list.group != "source" && list.group != "run") continue;
+    for (const auto& [name, value] : configuration.assignments) {
+      if (find({list}, name) != nullptr) words.insert(words.end(), {name, value});
+    }
+  }
+  return words;
+}
+
 std::vector<PlannedRun> runs_in_turns(const std::vector<Configuration>& configurations,
                                       const std::function<bool(const PlannedRun&)>& is_done) {
   int most_runs = 0, most_warmups = 0;

@@ -63,6 +63,10 @@ std::vector<std::string> lists_without_selection(const SuiteFile& file,
 /// What stands after "slambench", but for the folder of the results.
 std::vector<std::string> run_arguments(const Configuration& configuration);
 
+/// What decides over which frames it runs: equal for two configurations, these see the same.
+std::vector<std::string> input_of(const Configuration& configuration,
+                                  const std::vector<ParameterList>& lists);
+
 struct PlannedRun {
   std::size_t configuration = 0;
   int repetition = 0;  ///< from 1; 0 for a run that warms up and is in no figure

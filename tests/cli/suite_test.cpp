@@ -251,6 +251,31 @@ TEST_F(SuiteTest, FoldersOfSuiteJsonDoNotLeadElsewhere) {
   EXPECT_EQ(folders(), all_four);
 }
 
+TEST_F(SuiteTest, RunsOfAnOlderInputAreRefusedAndCanBePutAside) {
+  ASSERT_EQ(run().status, 0);
+  std::string other = testing::small_raw(8);
+  other.back() ^= 1;  // a pixel of the last frame
+  write("small.raw", other);
+  fs::remove_all(path("out/small.raw-serial/2"));
+  EXPECT_EQ(run().status, 1) << "its runs are no repeats now";
+  const testing::Outcome again = run();
+  EXPECT_EQ(again.status, 2);
+  EXPECT_THAT(again.err, AllOf(HasSubstr("out/small.raw-serial/1 has another input than "
+                                         "out/small.raw-serial/2"),
+                               HasSubstr("out/small.raw-openmp/1 has another input"),
+                               HasSubstr("--set-aside")));
+  EXPECT_EQ(run({"--set-aside"}).status, 0);
+  EXPECT_EQ(folders(), all_four);
+}
+
+TEST_F(SuiteTest, AFinishedSuiteNeedsItsSequencesNoMore) {
+  ASSERT_EQ(run().status, 0);
+  fs::rename(path("small.raw"), path("elsewhere.raw"));
+  const testing::Outcome outcome = run();
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("0 runs to do, 4 done"));
+}
+
 TEST_F(SuiteTest, DryRunPrintsCommandsAndChangesNothing) {
   const testing::Outcome listed = run({"--dry-run", "--repeat", "1"});
   EXPECT_EQ(listed.status, 0) << listed.err;
