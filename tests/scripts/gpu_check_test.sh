@@ -30,6 +30,7 @@ expect 3 'a.raw: cannot read the sequence' a.raw
 touch a.raw
 expect 3 'my.toml: cannot read the settings' a.raw --config my.toml
 expect 2 "--limit: found 'soon'" a.raw --limit soon
+expect 2 '--backend: found nothing' a.raw --backend
 mkdir debs
 expect 4 'found no .deb file in debs' a.raw --debs debs --out out-folder --build build
 echo "gpu-check says what it finds"
