@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "slam/kinect_fusion.h"
 #include "verify/checks.h"
@@ -13,9 +15,10 @@ namespace {
 
 using Track = std::tuple<std::vector<Pose>, std::vector<int>>;
 
-Track run_pipeline(Workbench& bench, const Recording& recording) {
+Track run_pipeline(Workbench& bench, const Recording& recording, bool fused) {
   KinectFusionParameters parameters = recording.parameters;
   parameters.map = name(bench.map());
+  parameters.fused = fused;
   KinectFusion system(bench.backend(), parameters, recording.frames[0].depth.size(),
                       recording.camera, recording.units_per_m, nullptr);
   Track track;
@@ -26,6 +29,15 @@ Track run_pipeline(Workbench& bench, const Recording& recording) {
     std::get<1>(track).push_back(result.tracked ? 1 : 0);
   }
   return track;
+}
+
+/// Where tracking is lost and found again. It would be integrated.
+Recording with_a_blank_frame(Recording recording) {
+  constexpr std::size_t blank = 8;
+  recording.name += " with a blank frame";
+  Image<std::uint16_t>& depth = recording.frames[blank].depth;
+  std::fill(depth.begin(), depth.end(), std::uint16_t{0});
+  return recording;
 }
 
 void compare_tracks(Trial& trial, const Track& expected, const Track& found) {
@@ -56,14 +68,19 @@ void compare_tracks(Trial& trial, const Track& expected, const Track& found) {
 }  // namespace
 
 void check_pipeline(Trial& trial) {
-  const auto add = [&](const Recording& recording) {
+  const auto add = [&](const Recording& recording, bool fused) {
     trial.add(
-        fmt::format("{}, {} frames", recording.name, recording.frames.size()),
-        [&](Workbench& bench) { return run_pipeline(bench, recording); },
+        fmt::format("{}, {} frames{}", recording.name, recording.frames.size(),
+                    fused ? ", fused" : ""),
+        [&, fused](Workbench& bench) { return run_pipeline(bench, recording, fused); },
         [&](const Track& expected, const Track& found) { compare_tracks(trial, expected, found); });
   };
-  add(synthetic_recording({160, 120}, 12));
-  for (const Recording& recording : trial.recordings()) add(recording);
+  const Recording room = synthetic_recording({160, 120}, 12);
+  add(room, false);
+  add(with_a_blank_frame(room), true);
+  for (const Recording& recording : trial.recordings()) {
+    for (const bool fused : {false, true}) add(recording, fused);
+  }
 }
 
 }  // namespace slambench

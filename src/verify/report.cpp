@@ -195,8 +195,9 @@ std::string matrix_markdown(const AgreementReport& report) {
   }
   for (const BackendState& backend : report.backends) {
     if (backend.availability.available) continue;
-    text += fmt::format("\n`{}` was not available where this table was made: {}\n", backend.name,
-                        backend.availability.reason);
+    text +=
+        fmt::format("\n`{}` was not run, as it was not available where this table was made: {}\n",
+                    backend.name, backend.availability.reason);
   }
   return text;
 }
@@ -235,7 +236,8 @@ reference, the `serial` backend on the `grid` map. The same program runs as test
 - **Repeatability**: a second instance of the backend, with another number of threads where it has
   threads, must give the same bits.
 - **State**: volumes are changed between two looks from the same place: nothing may be remembered.
-- **`pipeline`** runs KinectFusion over a dozen frames, pictures included, and compares the poses.
+- **`pipeline`** runs KinectFusion over a dozen frames, pictures included, and compares the poses: once
+  kernel by kernel, and once fused, where one frame is blank, so that tracking is lost and found again.
 - **`memory`** writes images and volumes and reads them back.
 
 The reference is compared with nothing; tests of its own hold it against closed-form answers.
