@@ -5,8 +5,9 @@
 #include <cooperative_groups.h>
 #include <cuda_runtime.h>
 
-#include "backends/cuda/brick_map.h"
+#include "backends/cuda/align_kernel.h"
 #include "backends/cuda/cuda_device.h"
+#include "core/error.h"
 
 /// The launches of device_backend.h on a CUDA device. All device code that is CUDA's own lies here;
 /// what kernels compute lies in headers that know nothing of it.
@@ -119,10 +120,14 @@ __global__ void __launch_bounds__(F::threads) run_grid(const __grid_constant__ F
 
 class CudaLaunch : public CudaDevice {
  public:
-  /// Throws UnavailableError when this build has no code for the device.
+  /// Throws UnavailableError when this build has no code for the device, or when the blocks of the
+  /// alignment, one a multiprocessor, cannot run there at the same time.
   explicit CudaLaunch(int device) : CudaDevice(device) {
-    cudaFuncAttributes attributes;
-    SLAMBENCH_CUDA(cudaFuncGetAttributes(&attributes, run_elements<ClearBricks>));
+    int blocks = 0;
+    SLAMBENCH_CUDA(
+        cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, run_grid<Align>, Align::threads, 0));
+    if (blocks < 1)
+      throw UnavailableError("CUDA: a block of the alignment does not fit the device");
   }
 
   template <class F>
