@@ -185,12 +185,16 @@ Twist Backend::do_solve(const Reduction& reduction, double condition) {
   return twist;
 }
 
-AlignResult Backend::align(const AlignInput& input, double condition) {
+void Backend::check_shapes(const AlignInput& input) {
   check(input.model_vertices != nullptr && input.model_normals != nullptr, "align: no model");
   check(!input.iterations.empty() && input.vertices.size() == input.iterations.size() &&
             input.normals.size() == input.iterations.size() &&
             input.rows.size() == input.iterations.size(),
         "align: numbers of levels differ");
+}
+
+AlignResult Backend::align(const AlignInput& input, double condition) {
+  check_shapes(input);
   if (fuses_align() && !input.fused) return Backend::do_align(input, condition);
   const KernelScope scope(fuses_align() ? launch_observer() : nullptr, Kernel::align);
   return do_align(input, condition);
@@ -203,6 +207,20 @@ AlignResult Backend::do_align(const AlignInput& input, double condition) {
     return reduce(*input.rows[level]);
   };
   return iterate_align(input, match, [&](const Reduction& sums) { return solve(sums, condition); });
+}
+
+AdvanceResult Backend::advance(const AdvanceInput& input) {
+  check(can_advance(), "advance: not of this backend");
+  check_shapes(input.align);
+  check(input.volume != nullptr && input.depth_m != nullptr, "advance: no volume or no depth");
+  check(input.model_vertices != nullptr && input.model_normals != nullptr &&
+            input.model_vertices->size == input.model_normals->size,
+        "advance: no model, or its sizes differ");
+  return do_advance(input);
+}
+
+AdvanceResult Backend::do_advance(const AdvanceInput&) {
+  throw std::logic_error("advance: promised, but not there");
 }
 
 void Backend::integrate(Volume& volume, const DeviceImage<float>& depth_m,

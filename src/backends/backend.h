@@ -14,6 +14,7 @@
 #include "core/trajectory.h"
 #include "kernels/kernel.h"
 #include "kernels/observer.h"
+#include "kernels/tracking.h"
 #include "kernels/types.h"
 
 namespace slambench {
@@ -79,6 +80,25 @@ struct AlignResult {
   std::vector<int> iterations;  ///< done, per level
 };
 
+/// A frame from its alignment to the next model. The poses of `integrate` and `raycast` are not
+/// looked at: both are done where the alignment says.
+struct AdvanceInput {
+  AlignInput align;
+  double condition = 0;   ///< as align() takes it
+  TrackingLimits limits;  ///< of an alignment that is believed
+  Volume* volume = nullptr;
+  const DeviceImage<float>* depth_m = nullptr;   ///< for integrate
+  std::optional<IntegrateParameters> integrate;  ///< nothing: not even a tracked frame is
+  DeviceImage<Float3>* model_vertices = nullptr;
+  DeviceImage<Float3>* model_normals = nullptr;
+  RaycastParameters raycast;
+};
+
+struct AdvanceResult {
+  AlignResult aligned;
+  bool tracked = false;  ///< the alignment was believed; otherwise the frame stayed at its start
+};
+
 /// What raycast has found of a volume as it is now, for render_volume to draw from.
 struct SeenSurface {
   const DeviceImage<Float3>* vertices = nullptr;
@@ -127,6 +147,9 @@ class Backend {
   /// transfer_measured, at finish() at the latest, without any waiting of their own.
   virtual bool times_itself() const { return false; }
   virtual void finish() {}
+  /// Whether there is advance(). Only where times_itself(): in between, nobody has a look at a
+  /// clock.
+  virtual bool can_advance() const { return false; }
 
   /// Who is told about kernels from now on; null for nobody. Not owned.
   void observe(Observer* observer) { observer_ = observer; }
@@ -186,6 +209,10 @@ class Backend {
                      const ShadeParameters& shading, const SeenSurface* seen = nullptr);
   /// The ICP loop, coarse to fine. Unless a backend does better and may: track, reduce and solve.
   AlignResult align(const AlignInput& input, double condition);
+  /// align, then integrate if the alignment is believed and the frame is due, then raycast, from
+  /// the aligned pose or, of a lost frame, from the start. Nobody waits before the end; there, all
+  /// that was asked for before is finished as well, and told.
+  AdvanceResult advance(const AdvanceInput& input);
 
  protected:
   virtual std::unique_ptr<Storage> allocate(std::size_t bytes) = 0;
@@ -231,12 +258,15 @@ class Backend {
   virtual AlignResult do_align(const AlignInput& input, double condition);
   /// Whether do_align is the backend's own, and is to be reported as `align`.
   virtual bool fuses_align() const { return false; }
+  /// Called only where can_advance().
+  virtual AdvanceResult do_advance(const AdvanceInput& input);
 
   /// Throws std::invalid_argument unless the condition holds.
   static void check(bool condition, const char* message);
   Observer* observer() const { return observer_; }
 
  private:
+  static void check_shapes(const AlignInput& input);
   /// Who times a launch from outside: nobody, when the device does it itself.
   Observer* launch_observer() const { return times_itself() ? nullptr : observer_; }
 

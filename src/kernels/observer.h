@@ -23,6 +23,10 @@ class Observer {
   virtual ~Observer() = default;
   virtual void stage_begin(Stage stage) = 0;
   virtual void stage_end(Stage stage) = 0;
+  /// Around preprocess to raycast of a frame that a backend computes before anybody waits. None of
+  /// these stages is told of: what is measured of its kernels is what there is of a stage's time.
+  virtual void computation_begin() {}
+  virtual void computation_end() {}
   /// Around each call of a kernel by a backend that computes before it returns.
   virtual void kernel_begin(Kernel kernel) = 0;
   virtual void kernel_end(Kernel kernel) = 0;
@@ -48,6 +52,22 @@ class StageScope {
  private:
   Observer* observer_;
   Stage stage_;
+};
+
+/// Reports a computation in one go for as long as it lives. A null observer is told nothing.
+class ComputationScope {
+ public:
+  explicit ComputationScope(Observer* observer) : observer_(observer) {
+    if (observer_ != nullptr) observer_->computation_begin();
+  }
+  ~ComputationScope() {
+    if (observer_ != nullptr) observer_->computation_end();
+  }
+  ComputationScope(const ComputationScope&) = delete;
+  ComputationScope& operator=(const ComputationScope&) = delete;
+
+ private:
+  Observer* observer_;
 };
 
 /// Reports a kernel for as long as it lives. A null observer is told nothing.

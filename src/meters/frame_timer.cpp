@@ -6,7 +6,7 @@ namespace slambench {
 
 double FrameTimes::computation_s() const {
   return stage(Stage::preprocess) + stage(Stage::track) + stage(Stage::integrate) +
-         stage(Stage::raycast);
+         stage(Stage::raycast) + between_s;
 }
 
 double FrameTimes::total_s() const {
@@ -27,6 +27,19 @@ void FrameTimer::stage_end(Stage stage) {
   if (stages_ != nullptr) stages_->stage_end(stage);
 }
 
+void FrameTimer::computation_begin() {
+  if (stages_ != nullptr) stages_->computation_begin();
+  in_one_go_ = true;
+  in_kernels_s_ = 0;
+  computation_begin_s_ = clock_.now_s();
+}
+
+void FrameTimer::computation_end() {
+  times_.between_s += clock_.now_s() - computation_begin_s_ - in_kernels_s_;
+  in_one_go_ = false;
+  if (stages_ != nullptr) stages_->computation_end();
+}
+
 void FrameTimer::kernel_begin(Kernel) { kernel_begin_s_ = clock_.now_s(); }
 
 void FrameTimer::kernel_end(Kernel kernel) {
@@ -37,10 +50,15 @@ void FrameTimer::kernel_measured(Kernel kernel, double seconds) {
   const auto i = static_cast<std::size_t>(kernel);
   times_.kernel_s[i] += seconds;
   ++times_.kernel_calls[i];
+  if (!in_one_go_) return;
+  const auto stage = static_cast<std::size_t>(info(kernel).stage);
+  times_.stage_s[stage] += seconds;
+  times_.stage_calls[stage] = 1;
+  in_kernels_s_ += seconds;
 }
 
 void FrameTimer::transfer_measured(Transfer direction, std::size_t bytes, double seconds) {
-  if (!in_stage_) return;
+  if (!in_stage_ && !in_one_go_) return;
   TransferTimes& times = times_.transfers[static_cast<std::size_t>(direction)];
   times.seconds += seconds;
   times.bytes += bytes;

@@ -24,21 +24,25 @@ struct FrameTimes {
   std::array<int, kernel_count> kernel_calls{};
   /// By direction. They are within the stages' times, and in no sum.
   std::array<TransferTimes, transfer_count> transfers{};
+  /// Of the computation, in no stage: launching, waiting and what lies between kernels, where only
+  /// these are timed (Observer::computation_begin).
+  double between_s = 0;
   double read_s = 0;  ///< reading the frame, on whichever thread; within `acquire` unless ahead
 
   double stage(Stage s) const { return stage_s[static_cast<std::size_t>(s)]; }
-  /// preprocess + track + integrate + raycast, as SLAMBench defines it.
+  /// preprocess + track + integrate + raycast, as SLAMBench defines it, and between_s: wall time.
   double computation_s() const;
   /// acquire + computation + render.
   double total_s() const;
 };
 
 /// Adds up what happens between two calls of take(), by the given clock. Kernels run within
-/// stages; there is one stage and one kernel at a time. A stage always has the wall time between
+/// stages; there is one stage and one kernel at a time. A stage has the wall time between
 /// its begin and its end, also where the backend measures its kernels itself (kernel_measured):
-/// those times count when they arrive, and need not add up to their stage's. Transfers count when
-/// they are told of within a stage: what happens between stages (pictures that are saved) is no
-/// frame's.
+/// those times count when they arrive, and need not add up to their stage's. Only of a computation
+/// in one go they do: a stage then is its kernels, and the rest of the wall time is between_s.
+/// Transfers count when they are told of within a stage or such a computation: what happens between
+/// stages (pictures that are saved) is no frame's.
 class FrameTimer final : public Observer {
  public:
   /// Tells `stages`, if any, when stages begin and end, outside of what it measures itself.
@@ -47,6 +51,8 @@ class FrameTimer final : public Observer {
 
   void stage_begin(Stage stage) override;
   void stage_end(Stage stage) override;
+  void computation_begin() override;
+  void computation_end() override;
   void kernel_begin(Kernel kernel) override;
   void kernel_end(Kernel kernel) override;
   void kernel_measured(Kernel kernel, double seconds) override;
@@ -59,8 +65,9 @@ class FrameTimer final : public Observer {
   const Clock& clock_;
   Observer* const stages_;
   FrameTimes times_;
-  double stage_begin_s_ = 0, kernel_begin_s_ = 0;
-  bool in_stage_ = false;
+  double stage_begin_s_ = 0, kernel_begin_s_ = 0, computation_begin_s_ = 0;
+  double in_kernels_s_ = 0;  ///< of the computation in one go
+  bool in_stage_ = false, in_one_go_ = false;
 };
 
 }  // namespace slambench

@@ -24,6 +24,9 @@ constexpr CountedEvent counted_events[] = {
     {"branch_misses", PERF_COUNT_HW_BRANCH_MISSES, &CounterValues::branch_misses},
 };
 
+constexpr Stage computed_stages[] = {Stage::preprocess, Stage::track, Stage::integrate,
+                                     Stage::raycast};
+
 }  // namespace
 
 StageCounters::StageCounters(const PerfEvents& events) {
@@ -74,7 +77,15 @@ CounterMeasurement StageCounters::take(int frames, std::map<std::string, std::st
       taken.stages[stage].*counted_events[i].member = counted_[stage][i];
     }
   }
+  if (in_one_go_) {
+    for (const Stage stage : computed_stages) {
+      taken.stages[static_cast<std::size_t>(stage)] = {};
+      (*absent)[fmt::format("counters.stages.{}", name(stage))] =
+          "the backend computes these stages in one go";
+    }
+  }
   counted_ = {};
+  in_one_go_ = false;
   return taken;
 }
 

@@ -14,7 +14,8 @@
 namespace slambench {
 
 /// Counts what the processor did in each stage: reads counters where a stage begins and ends, and
-/// nowhere else. Counts the threads that are started after it and the one that made it.
+/// nowhere else. Counts the threads that are started after it and the one that made it. What the
+/// processor does in a computation in one go is no stage's.
 class StageCounters final : public Observer {
  public:
   /// Throws MeterError when none of the events can be counted.
@@ -22,6 +23,7 @@ class StageCounters final : public Observer {
 
   void stage_begin(Stage stage) override;
   void stage_end(Stage stage) override;
+  void computation_begin() override { in_one_go_ = true; }
   void kernel_begin(Kernel) override {}
   void kernel_end(Kernel) override {}
   void kernel_measured(Kernel, double) override {}
@@ -39,6 +41,7 @@ class StageCounters final : public Observer {
   std::array<std::string, event_count> reasons_;
   Counts begin_{};
   std::array<Counts, stage_count> counted_{};
+  bool in_one_go_ = false;  ///< some frame's computation was
 };
 
 }  // namespace slambench

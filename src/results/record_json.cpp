@@ -171,6 +171,7 @@ void put_measured(const TimeFigures& figures, Json* json, Reasons* absent) {
     kernels[std::string(name(kernel.kernel))] = one;
   }
   (*json)["stages"] = stages;
+  if (figures.between) (*json)["between_stages"] = json_of(*figures.between);
   (*json)["kernels"] = kernels;
   if (!figures.transfers.empty()) {
     (*json)["transfers"] = transfers_json(figures.transfers);

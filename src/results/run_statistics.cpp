@@ -44,6 +44,16 @@ FrameSeconds frame_seconds(const std::vector<const FrameTimes*>& frames, std::si
   return frame_seconds(values, frames.size());
 }
 
+/// Only of frames that were computed in one go.
+std::optional<FrameSeconds> between_stages(const std::vector<const FrameTimes*>& frames) {
+  std::vector<double> values;
+  for (const FrameTimes* times : frames) {
+    if (times->between_s != 0) values.push_back(times->between_s);
+  }
+  if (values.empty()) return std::nullopt;
+  return frame_seconds(values, frames.size());
+}
+
 std::optional<double> share_of(Stage stage, const FrameSeconds& seconds,
                                const Statistics& computation) {
   if (!in_computation(stage) || !(computation.mean > 0)) return std::nullopt;
@@ -89,7 +99,8 @@ std::optional<TransferFigures> transfer_figures(Transfer direction,
 
 bool all_finite(const FrameTimes& times) {
   const auto finite = [](double s) { return std::isfinite(s); };
-  return std::all_of(times.stage_s.begin(), times.stage_s.end(), finite) &&
+  return finite(times.between_s) &&
+         std::all_of(times.stage_s.begin(), times.stage_s.end(), finite) &&
          std::all_of(times.kernel_s.begin(), times.kernel_s.end(), finite) &&
          std::all_of(times.transfers.begin(), times.transfers.end(),
                      [&](const TransferTimes& t) { return finite(t.seconds); });
@@ -141,6 +152,7 @@ TimeFigures time_figures(const Record& record) {
         frame_seconds(measured, i, &FrameTimes::stage_s, &FrameTimes::stage_calls);
     figures.stages.push_back({stage, seconds, share_of(stage, seconds, figures.computation_s)});
   }
+  figures.between = between_stages(measured);
   for (const KernelInfo& kernel : kernel_table()) {
     if (auto k = kernel_figures(kernel, measured, figures.computation_s)) {
       figures.kernels.push_back(*k);

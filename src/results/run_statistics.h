@@ -48,9 +48,11 @@ struct TransferFigures {
 struct TimeFigures {
   std::vector<int> warmup;  ///< indices of the frames left out
   std::size_t measured_frames = 0;
-  Statistics computation_s, total_s;       ///< as the paper defines them (meters/frame_timer.h)
-  Statistics read_s;                       ///< reading a frame, on whichever thread
-  std::vector<StageFigures> stages;        ///< in pipeline order, without start-up
+  Statistics computation_s, total_s;  ///< as the paper defines them (meters/frame_timer.h)
+  Statistics read_s;                  ///< reading a frame, on whichever thread
+  std::vector<StageFigures> stages;   ///< in pipeline order, without start-up
+  /// Of the computation, in no stage (FrameTimes::between_s); none where stages are all of it.
+  std::optional<FrameSeconds> between;
   std::vector<KernelFigures> kernels;      ///< those called in a measured frame, in pipeline order
   std::vector<TransferFigures> transfers;  ///< by direction; none where none was measured
   std::optional<double> fps_computation;   ///< 1 / mean computation

@@ -101,9 +101,13 @@ void list_stages(const TimeFigures& figures, Page* page) {
   for (const StageFigures& stage : figures.stages) {
     page->line(stage_row(name(stage.stage), stage.seconds, share_text(stage.share)));
   }
+  if (figures.between) page->line(stage_row("(between)", *figures.between, "-"));
   const auto whole = figures.computation_s.mean > 0 ? std::optional(1.0) : std::nullopt;
   page->line(stage_row("computation", in_every_frame(figures.computation_s), share_text(whole)));
   page->line(stage_row("total", in_every_frame(figures.total_s), "-"));
+  if (figures.between) {
+    page->line("(stages as the device timed their kernels; between: launching and waiting)");
+  }
 }
 
 /// Only of a backend that has any.

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.h"
 #include "io/files.h"
@@ -34,6 +33,8 @@ Size computation_size(Size input, int ratio) {
   }
   return {input.width / ratio, input.height / ratio};
 }
+
+std::int64_t pixels(Size size) { return static_cast<std::int64_t>(size.count()); }
 
 /// Level sizes from full computation resolution to the coarsest, each half of the one before.
 std::vector<Size> pyramid_sizes(Size finest, std::size_t levels) {
@@ -108,10 +109,14 @@ KinectFusion::KinectFusion(Backend& backend, const KinectFusionParameters& param
 
 FrameResult KinectFusion::process(const Frame& frame) {
   FrameResult result;
-  preprocess(frame);
-  track(&result);
-  integrate(&result);
-  raycast();
+  if (p_.fused && backend_.can_advance() && tracking_is_due()) {
+    advance(frame, &result);
+  } else {
+    preprocess(frame);
+    track(&result);
+    integrate(&result);
+    raycast();
+  }
   ++processed_;
   result.T_start_camera = T_volume_start_.inverse() * T_volume_camera_;
   return result;
@@ -119,16 +124,66 @@ FrameResult KinectFusion::process(const Frame& frame) {
 
 void KinectFusion::preprocess(const Frame& frame) {
   const StageScope scope(observer_, Stage::preprocess);
-  backend_.write(raw_depth_, frame.depth);
-  backend_.mm2meters(depth_m_, raw_depth_, units_per_m_);
-  backend_.bilateral_filter(filtered_m_[0], depth_m_, gaussian_,
-                            static_cast<float>(p_.bilateral_range_sigma_m));
+  filter_depth(frame);
   backend_.finish();
 }
 
 void KinectFusion::track(FrameResult* result) {
-  if (!T_volume_model_ || processed_ % p_.tracking_rate != 0) return;
+  if (!tracking_is_due()) return;
   const StageScope scope(observer_, Stage::track);
+  build_pyramid();
+  const AlignResult aligned = backend_.align(align_input(), p_.solve_condition);
+  const auto level = static_cast<std::size_t>(aligned.last_level);
+  const bool finite = aligned.T_volume_camera.matrix().allFinite();
+  accept(aligned, finite && agrees(aligned.last, pixels(vertices_[level].size), limits()), result);
+  backend_.finish();
+}
+
+void KinectFusion::integrate(FrameResult* result) {
+  const bool due = result->tracked && integration_is_due();
+  if (!due && processed_ >= p_.bootstrap_frames) return;
+  const StageScope scope(observer_, Stage::integrate);
+  backend_.integrate(volume_, depth_m_, measurement());
+  backend_.finish();
+  result->integrated = true;
+}
+
+void KinectFusion::raycast() {
+  if (processed_ + 1 < p_.bootstrap_frames) return;
+  const StageScope scope(observer_, Stage::raycast);
+  backend_.raycast(model_vertices_, model_normals_, volume_, view(p_.far_m));
+  T_volume_model_ = T_volume_camera_;
+  backend_.finish();
+}
+
+// There is a model only behind the first frames: their rules are none of these.
+void KinectFusion::advance(const Frame& frame, FrameResult* result) {
+  const ComputationScope scope(observer_);
+  filter_depth(frame);
+  build_pyramid();
+  AdvanceInput input{align_input(),    p_.solve_condition, limits(),      &volume_, &depth_m_, {},
+                     &model_vertices_, &model_normals_,    view(p_.far_m)};
+  if (integration_is_due()) input.integrate = measurement();
+  const AdvanceResult advanced = backend_.advance(input);
+  accept(advanced.aligned, advanced.tracked, result);
+  result->integrated = result->tracked && integration_is_due();
+  T_volume_model_ = T_volume_camera_;
+}
+
+bool KinectFusion::tracking_is_due() const {
+  return T_volume_model_ && processed_ % p_.tracking_rate == 0;
+}
+
+bool KinectFusion::integration_is_due() const { return processed_ % p_.integration_rate == 0; }
+
+void KinectFusion::filter_depth(const Frame& frame) {
+  backend_.write(raw_depth_, frame.depth);
+  backend_.mm2meters(depth_m_, raw_depth_, units_per_m_);
+  backend_.bilateral_filter(filtered_m_[0], depth_m_, gaussian_,
+                            static_cast<float>(p_.bilateral_range_sigma_m));
+}
+
+void KinectFusion::build_pyramid() {
   for (std::size_t level = 0; level < filtered_m_.size(); ++level) {
     if (level > 0) {
       backend_.half_sample(filtered_m_[level], filtered_m_[level - 1],
@@ -138,7 +193,9 @@ void KinectFusion::track(FrameResult* result) {
                           camera_.divided_by(static_cast<float>(1 << level)));
     backend_.vertex2normal(normals_[level], vertices_[level]);
   }
+}
 
+AlignInput KinectFusion::align_input() {
   AlignInput input;
   for (std::size_t level = 0; level < vertices_.size(); ++level) {
     input.vertices.push_back(&vertices_[level]);
@@ -155,43 +212,24 @@ void KinectFusion::track(FrameResult* result) {
   input.convergence = p_.icp_threshold;
   input.keep_rows = true;
   input.fused = p_.fused;
-  const AlignResult aligned = backend_.align(input, p_.solve_condition);
-
-  accept(aligned, result);
-  backend_.finish();
+  return input;
 }
 
-void KinectFusion::accept(const AlignResult& aligned, FrameResult* result) {
-  const auto inliers = static_cast<double>(aligned.last.inliers);
+TrackingLimits KinectFusion::limits() const { return {p_.tracked_residual_m, p_.tracked_fraction}; }
+
+void KinectFusion::accept(const AlignResult& aligned, bool tracked, FrameResult* result) {
   const Size size = vertices_[static_cast<std::size_t>(aligned.last_level)].size;
   result->iterations = aligned.iterations;
   result->inliers = static_cast<std::size_t>(aligned.last.inliers);
-  result->inlier_fraction = inliers / static_cast<double>(size.count());
-  result->residual_m = inliers > 0 ? std::sqrt(aligned.last.squared_error / inliers) : 0;
-  result->tracked = inliers > 0 && result->residual_m <= p_.tracked_residual_m &&
-                    result->inlier_fraction >= p_.tracked_fraction &&
-                    aligned.T_volume_camera.matrix().allFinite();
-  if (result->tracked) T_volume_camera_ = aligned.T_volume_camera;
+  result->inlier_fraction = inlier_fraction(aligned.last, pixels(size));
+  result->residual_m = residual_m(aligned.last);
+  result->tracked = tracked;
+  if (tracked) T_volume_camera_ = aligned.T_volume_camera;
 }
 
-void KinectFusion::integrate(FrameResult* result) {
-  const bool due = result->tracked && processed_ % p_.integration_rate == 0;
-  if (!due && processed_ >= p_.bootstrap_frames) return;
-  const StageScope scope(observer_, Stage::integrate);
-  backend_.integrate(
-      volume_, depth_m_,
-      {to_rigid3f(T_volume_camera_.inverse()), camera_, static_cast<float>(p_.mu_m),
-       static_cast<float>(p_.max_weight), static_cast<float>(p_.integrate_min_depth_m)});
-  backend_.finish();
-  result->integrated = true;
-}
-
-void KinectFusion::raycast() {
-  if (processed_ + 1 < p_.bootstrap_frames) return;
-  const StageScope scope(observer_, Stage::raycast);
-  backend_.raycast(model_vertices_, model_normals_, volume_, view(p_.far_m));
-  T_volume_model_ = T_volume_camera_;
-  backend_.finish();
+IntegrateParameters KinectFusion::measurement() const {
+  return {to_rigid3f(T_volume_camera_.inverse()), camera_, static_cast<float>(p_.mu_m),
+          static_cast<float>(p_.max_weight), static_cast<float>(p_.integrate_min_depth_m)};
 }
 
 RaycastParameters KinectFusion::view(double far_m) const {

@@ -70,12 +70,23 @@ class KinectFusion final : public System {
   void dump_volume(const std::string& path) override;
 
  private:
+  // Each stage waits at its end, so that its wall time is its own.
   void preprocess(const Frame& frame);
   void track(FrameResult* result);
-  /// Takes the aligned pose over unless too few pixels agree with the model, or too badly.
-  void accept(const AlignResult& aligned, FrameResult* result);
   void integrate(FrameResult* result);
   void raycast();
+  /// All of them for a frame that is to be tracked, with the backend's one wait.
+  void advance(const Frame& frame, FrameResult* result);
+
+  bool tracking_is_due() const;
+  bool integration_is_due() const;
+  void filter_depth(const Frame& frame);
+  void build_pyramid();
+  AlignInput align_input();
+  TrackingLimits limits() const;
+  /// Takes the aligned pose over if the alignment is believed.
+  void accept(const AlignResult& aligned, bool tracked, FrameResult* result);
+  IntegrateParameters measurement() const;
   RaycastParameters view(double far_m) const;
   ShadeParameters shading() const;
 

@@ -81,8 +81,10 @@ ParameterList KinectFusionParameters::describe() {
            &fused,
            0,
            0,
-           "kernels share work where the backend can: the alignment runs as one, and the volume is "
-           "drawn from the raycast of the same view instead of casting its rays again",
+           "kernels share work where the backend can: the alignment runs as one, a tracked frame "
+           "is "
+           "computed with a single wait, and the volume is drawn from the raycast of the same view "
+           "instead of casting its rays again",
            {},
            ParameterRole::implementation},
       },

@@ -29,6 +29,11 @@ TEST_F(Contract, SerialOffersEveryKernelButTheFusedOne) {
   EXPECT_EQ(name(MapKind::grid), "grid");
 }
 
+TEST_F(Contract, SerialDoesNotAdvanceAFrameInOneGo) {
+  EXPECT_FALSE(backend_.can_advance());
+  EXPECT_THROW(backend_.advance({}), std::invalid_argument);
+}
+
 TEST_F(Contract, SerialChoosesNoInstructionSetAndLacksNothing) {
   EXPECT_EQ(backend_.instruction_set(), "");
   EXPECT_EQ(backend_.missing_kernel(MapKind::grid), std::nullopt);

@@ -190,7 +190,7 @@ TEST(CudaAlign, IsTheSameInEveryBlockAndForAnyNumberOfThem) {
   }
 }
 
-// ---------------------------------------------------------------- the bricks
+// ---------------------------------------------------------------- views of a corner
 
 constexpr Size size{67, 50};
 constexpr Intrinsics camera{55, 55, 33, 25};
@@ -221,6 +221,169 @@ std::vector<Voxel> voxels_of(Backend& backend, const Volume& volume) {
   backend.read_volume(voxels, volume);
   return voxels;
 }
+
+// ---------------------------------------------------------------- a frame in one go
+
+struct AfterFrame {
+  AlignResult aligned;
+  bool tracked = false;
+  std::vector<Voxel> voxels;
+  Image<Float3> vertices, normals;
+};
+
+/// A frame's maps, and the model and the volume that it meets.
+struct Meeting {
+  Meeting(Backend& backend, MapKind map)
+      : volume(fused(backend, map, 4)),
+        depth_m(uploaded(backend,
+                         testing::depth_m_of(testing::room_corner(2), view_at(4), camera, size))),
+        vertices(backend.make_image<Float3>(size)),
+        normals(backend.make_image<Float3>(size)),
+        model_vertices(backend.make_image<Float3>(size)),
+        model_normals(backend.make_image<Float3>(size)),
+        rows(backend.make_image<TrackData>(size)) {
+    backend.depth2vertex(vertices, depth_m, camera);
+    backend.vertex2normal(normals, vertices);
+    backend.raycast(model_vertices, model_normals, volume, ray(view_at(3)));
+    input.align = {{&vertices},
+                   {&normals},
+                   {&rows},
+                   &model_vertices,
+                   &model_normals,
+                   {10},
+                   {to_rigid3f(view_at(3)), to_rigid3f(view_at(3).inverse()), camera, 0.1f, 0.8f},
+                   view_at(3),
+                   1e-5,
+                   true,
+                   true};
+    input.condition = 1e6;
+    input.limits = {0.02, 0.15};
+    input.volume = &volume;
+    input.depth_m = &depth_m;
+    input.model_vertices = &model_vertices;
+    input.model_normals = &model_normals;
+    // Of another pose, which nobody may look at.
+    input.integrate = measurement(view_at(9));
+    input.raycast = ray(view_at(9));
+  }
+
+  static IntegrateParameters measurement(const Pose& pose) {
+    return {to_rigid3f(pose.inverse()), camera, 0.1f, 6, 0.0001f};
+  }
+  static RaycastParameters ray(const Pose& pose) {
+    return {to_rigid3f(pose), camera, 0.2f, 4, 0.075f, 0.028f, 0.8f};
+  }
+  AfterFrame now(Backend& backend, const AlignResult& aligned, bool tracked) const {
+    return {aligned, tracked, voxels_of(backend, volume), downloaded(backend, model_vertices),
+            downloaded(backend, model_normals)};
+  }
+
+  Volume volume;
+  DeviceImage<float> depth_m;
+  DeviceImage<Float3> vertices, normals, model_vertices, model_normals;
+  DeviceImage<TrackData> rows;
+  AdvanceInput input;
+};
+
+/// What the pipeline does with the backend's single steps.
+AfterFrame step_by_step(Backend& backend, Meeting& meeting) {
+  const AdvanceInput& in = meeting.input;
+  const AlignResult aligned = backend.align(in.align, in.condition);
+  const bool tracked = agrees(aligned.last, static_cast<std::int64_t>(size.count()), in.limits);
+  const Pose pose = tracked ? aligned.T_volume_camera : in.align.T_volume_camera;
+  if (tracked && in.integrate) {
+    backend.integrate(meeting.volume, meeting.depth_m, Meeting::measurement(pose));
+  }
+  backend.raycast(meeting.model_vertices, meeting.model_normals, meeting.volume,
+                  Meeting::ray(pose));
+  return meeting.now(backend, aligned, tracked);
+}
+
+struct Advance : ::testing::TestWithParam<std::tuple<MapKind, bool, bool>> {};
+
+TEST_P(Advance, DoesWhatTheSingleStepsDo) {
+  const auto& [map, believed, due] = GetParam();
+  const auto meet = [&, map = map, believed = believed, due = due](Backend& backend) {
+    auto meeting = std::make_unique<Meeting>(backend, map);
+    if (!believed) meeting->input.limits.inlier_fraction = 1.1;
+    if (!due) meeting->input.integrate.reset();
+    return meeting;
+  };
+  HostCudaBackend one(std::make_shared<HostLaunch>(Order::forwards));
+  const auto single = meet(one);
+  const std::vector<Voxel> before = voxels_of(one, single->volume);
+  const AfterFrame expected = step_by_step(one, *single);
+  EXPECT_EQ(expected.tracked, believed);
+  EXPECT_EQ(expected.voxels != before, believed && due);
+  for (const Order order : {Order::forwards, Order::backwards}) {
+    const auto launch = std::make_shared<HostLaunch>(order);
+    HostCudaBackend two(launch);
+    const auto meeting = meet(two);
+    const int waits = launch->waits;
+    const AdvanceResult advanced = two.advance(meeting->input);
+    EXPECT_EQ(launch->waits, waits + 1);
+    const AfterFrame found = meeting->now(two, advanced.aligned, advanced.tracked);
+    EXPECT_EQ(found.tracked, expected.tracked);
+    EXPECT_EQ(found.aligned.iterations, expected.aligned.iterations);
+    EXPECT_EQ(found.aligned.last.inliers, expected.aligned.last.inliers);
+    EXPECT_TRUE(found.aligned.T_volume_camera.isApprox(expected.aligned.T_volume_camera, 1e-12));
+    EXPECT_EQ(found.voxels, expected.voxels);
+    EXPECT_EQ(found.vertices, expected.vertices);
+    EXPECT_EQ(found.normals, expected.normals);
+  }
+}
+
+std::string name_of(const ::testing::TestParamInfo<Advance::ParamType>& combination) {
+  const auto& [map, believed, due] = combination.param;
+  return std::string(name(map)) + (believed ? "_tracked" : "_lost") + (due ? "_due" : "_not_due");
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Advance,
+                         ::testing::Combine(::testing::Values(MapKind::grid, MapKind::bricks),
+                                            ::testing::Bool(), ::testing::Bool()),
+                         name_of);
+
+/// A motion that is not finite is none, whatever the limits allow.
+TEST_F(CudaBackend, DoesNotBelieveAPoseThatIsNotFinite) {
+  Meeting meeting(backend, MapKind::bricks);
+  meeting.input.limits = {HUGE_VAL, 0};
+  meeting.input.align.T_volume_camera.translation().x() = std::nan("");
+  const std::vector<Voxel> before = voxels_of(backend, meeting.volume);
+  EXPECT_FALSE(backend.advance(meeting.input).tracked);
+  EXPECT_EQ(voxels_of(backend, meeting.volume), before);
+}
+
+TEST_F(CudaBackend, WaitsOnceForATrackedFrameAndOnceForItsPictures) {
+  const Recording recording = synthetic_recording({80, 60}, 9);
+  Measured measured;
+  backend.observe(&measured);
+  KinectFusion system = system_for(backend, recording, MapKind::bricks, true, &measured);
+  for (std::size_t i = 0; i < recording.frames.size(); ++i) {
+    const int before = launch->waits;
+    const bool tracked = system.process(recording.frames[i]).tracked;
+    EXPECT_EQ(tracked, i >= 4);
+    const int processed = launch->waits;
+    system.render();
+    if (!tracked) continue;
+    EXPECT_EQ(processed, before + 1) << i;
+    EXPECT_EQ(launch->waits, processed + 1) << i;
+  }
+  backend.observe(nullptr);
+}
+
+/// Where the last iterations were on a coarse level, its pixels are the whole.
+TEST_F(CudaBackend, JudgesAnAlignmentByTheLevelThatItEndedOn) {
+  Recording recording = synthetic_recording({80, 60}, 6);
+  recording.parameters.pyramid_levels = {0, 8};
+  recording.parameters.tracked_fraction = 0.5;
+  KinectFusion system = system_for(backend, recording, MapKind::bricks, true);
+  FrameResult last;
+  for (const Frame& frame : recording.frames) last = system.process(frame);
+  EXPECT_TRUE(last.tracked);
+  EXPECT_GT(last.inlier_fraction, 0.5);
+}
+
+// ---------------------------------------------------------------- the bricks
 
 /// Passing over free space loses nothing: on the host, where arithmetic is the reference's own,
 /// not a bit.

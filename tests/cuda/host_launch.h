@@ -108,9 +108,22 @@ class HostLaunch {
     std::memcpy(device, host, bytes);
   }
   void download(void* host, const void* device, std::size_t bytes) {
-    std::memcpy(host, device, bytes);
+    fetch(host, device, bytes);
+    finish();
   }
-  void finish() {}
+  /// Nobody may look before the wait: until then there is garbage.
+  void fetch(void* host, const void* device, std::size_t bytes) {
+    if (arriving_at_ != nullptr) finish();
+    const auto* data = static_cast<const unsigned char*>(device);
+    arriving_.assign(data, data + bytes);
+    arriving_at_ = host;
+    std::memset(host, 0xa5, bytes);
+  }
+  void finish() {
+    ++waits;
+    if (arriving_at_ != nullptr) std::memcpy(arriving_at_, arriving_.data(), arriving_.size());
+    arriving_at_ = nullptr;
+  }
   void begin(Kernel) { ++open; }
   void end(Kernel kernel) {
     --open;
@@ -167,7 +180,7 @@ class HostLaunch {
     }
   }
 
-  int allocations = 0, open = 0;
+  int allocations = 0, open = 0, waits = 0;
   bool blocks_agree = true;  ///< all blocks of all grids ended with the same outcome
   std::set<void*> live;
 
@@ -186,6 +199,8 @@ class HostLaunch {
   std::vector<Kernel> pending_;
   std::vector<std::pair<Transfer, std::size_t>> pending_copies_;
   std::size_t copied_ = 0;
+  std::vector<unsigned char> arriving_;
+  void* arriving_at_ = nullptr;
 };
 
 using HostCudaBackend = cuda::DeviceBackend<HostLaunch>;

@@ -89,6 +89,33 @@ TEST_F(FrameTimerTest, KernelsMeasuredElsewhereLeaveTheStageItsWallTime) {
   EXPECT_EQ(calls(times, Kernel::raycast), 2);
 }
 
+/// Nobody waits between the stages of such a frame: a stage is its kernels, and the wall time of
+/// all of it is the computation's.
+TEST_F(FrameTimerTest, StagesOfAComputationInOneGoAreTheirKernels) {
+  {
+    const ComputationScope computation(&timer_);
+    clock_.advance(10);
+    timer_.kernel_measured(Kernel::bilateral_filter, 1);
+    timer_.kernel_measured(Kernel::vertex2normal, 2);
+    timer_.kernel_measured(Kernel::align, 0.5);
+    timer_.kernel_measured(Kernel::raycast, 4);
+    timer_.transfer_measured(Transfer::to_device, 1000, 0.25);
+  }
+  clock_.advance(100);
+  timer_.kernel_measured(Kernel::raycast, 50);  // of nobody's computation
+  const FrameTimes times = timer_.take();
+  EXPECT_DOUBLE_EQ(times.stage(Stage::preprocess), 1);
+  EXPECT_DOUBLE_EQ(times.stage(Stage::track), 2.5);
+  EXPECT_DOUBLE_EQ(times.stage(Stage::raycast), 4);
+  EXPECT_EQ(times.stage_calls[static_cast<std::size_t>(Stage::track)], 1);
+  EXPECT_EQ(times.stage_calls[static_cast<std::size_t>(Stage::integrate)], 0);
+  EXPECT_EQ(calls(times, Kernel::raycast), 2);
+  EXPECT_DOUBLE_EQ(times.between_s, 2.5);
+  EXPECT_DOUBLE_EQ(times.computation_s(), 10);
+  EXPECT_EQ(times.transfers[0].bytes, 1000u);
+  EXPECT_EQ(timer_.take().computation_s(), 0);
+}
+
 TEST_F(FrameTimerTest, TransfersAddUpByDirectionAndAreInNoOtherTime) {
   {
     const StageScope stage(&timer_, Stage::track);

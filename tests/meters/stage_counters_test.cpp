@@ -60,6 +60,35 @@ TEST_F(StageCountersTest, CountsWhatPassesWithinEachStage) {
   EXPECT_EQ(counters.take(0, &absent_).stages[static_cast<std::size_t>(Stage::track)].cycles, 0u);
 }
 
+/// Where the device goes from stage to stage by itself, the processor is in none of them.
+TEST_F(StageCountersTest, SayThatStagesInOneGoAreNotCounted) {
+  StageCounters counters(perf_);
+  testing::FakeClock clock;
+  FrameTimer timer(clock, &counters);
+  {
+    const StageScope stage(&timer, Stage::track);  // of a first frame that is not in one go
+    count(10);
+  }
+  {
+    const ComputationScope computation(&timer);
+    count(1000);
+  }
+  {
+    const StageScope stage(&timer, Stage::render);
+    count(7);
+  }
+  const CounterMeasurement counted = counters.take(1, &absent_);
+  for (const Stage stage : {Stage::preprocess, Stage::track, Stage::integrate, Stage::raycast}) {
+    EXPECT_EQ(counted.stages[static_cast<std::size_t>(stage)].cycles, std::nullopt);
+    EXPECT_THAT(absent_["counters.stages." + std::string(name(stage))], HasSubstr("in one go"));
+  }
+  EXPECT_EQ(counted.stages[static_cast<std::size_t>(Stage::render)].cycles, 7u);
+  absent_.clear();
+  const CounterMeasurement next = counters.take(0, &absent_);
+  EXPECT_EQ(next.stages[static_cast<std::size_t>(Stage::track)].cycles, 0u);
+  EXPECT_FALSE(absent_.contains("counters.stages.track"));
+}
+
 TEST_F(StageCountersTest, AreRefusedWhereNothingCanBeCounted) {
   perf_.refusal = "not permitted";
   EXPECT_THROW(StageCounters{perf_}, MeterError);

@@ -100,6 +100,15 @@ to the host              41.667    62.500          2.00        0.250        0.00
 over 3 runs)"));
 }
 
+TEST(SummaryText, TellsWhatLiesBetweenStagesOfFramesInOneGo) {
+  Record record = sample_record();
+  for (FrameRecord& frame : record.frames) frame.times.between_s = frame.dropped ? 0 : 0.5;
+  const std::string text = summary_text(record, "", false);
+  EXPECT_THAT(text, HasSubstr("(between)        500.000       3   500.000   500.000   500.000   "
+                              "500.000       -\ncomputation "));
+  EXPECT_THAT(text, HasSubstr("timed their kernels; between: launching and waiting)\n"));
+}
+
 TEST(SummaryText, FitsEightyColumnsWithLongNamesAndTimes) {
   Record record = sample_record();
   testing::add_sample_transfers(record);

@@ -286,6 +286,24 @@ TEST(RecordJson, TakesTextThatIsNotUtf8) {
   EXPECT_EQ(schema_errors(json::parse(record_json(record))), "");
 }
 
+TEST(RecordJson, HasWhatLiesBetweenStagesWhereFramesWereComputedInOneGo) {
+  Record record = sample_record();
+  const json without = json::parse(record_json(record));
+  EXPECT_FALSE(without["time"].contains("between_stages"));
+  for (const std::size_t frame : {3u, 4u}) record.frames[frame].times.between_s = 0.5;
+  const json document = json::parse(record_json(record));
+  EXPECT_EQ(schema_errors(document), "");
+  const json& between = document["time"]["between_stages"];
+  EXPECT_EQ(between["seconds_per_frame"], 1.0 / 3);  // of frames 1, 3 and 4
+  EXPECT_EQ(between["seconds"]["count"], 2);
+  EXPECT_EQ(document["time"]["stages"]["track"]["seconds"],
+            without["time"]["stages"]["track"]["seconds"]);
+  for (const char* figure : {"computation_s", "total_s"}) {
+    EXPECT_DOUBLE_EQ(document["time"][figure]["mean"].get<double>(),
+                     without["time"][figure]["mean"].get<double>() + 1.0 / 3);
+  }
+}
+
 TEST(RecordJson, HasTransfersWhereThereWereAnyAndAddsThemToNothing) {
   Record record = sample_record();
   const json without = json::parse(record_json(record));

@@ -488,12 +488,136 @@ TEST_F(Pipeline, RefusesFramesOfAnotherSize) {
   EXPECT_THROW(fusion.process(frame), std::invalid_argument);
 }
 
+// --- in one go -----------------------------------------------------------------------------------
+
+class InOneGo : public Pipeline {
+ protected:
+  InOneGo() {
+    p_.fused = true;
+    backend_.advances = true;
+  }
+  bool advanced(KinectFusion& fusion) {
+    backend_.advance_input.reset();
+    process(fusion);
+    return backend_.advance_input.has_value();
+  }
+};
+
+TEST_F(InOneGo, TracksFramesBehindTheFirst) {
+  KinectFusion fusion = make();
+  EXPECT_EQ(pattern(8, [&](int) { return advanced(fusion); }), "00001111");
+  EXPECT_FALSE(backend_.align_input.has_value());
+  EXPECT_EQ(backend_.raycasts, 1) << "of the last frame before";
+  EXPECT_EQ(backend_.integrations, 4);
+}
+
+TEST_F(InOneGo, OnlyWhereItIsAskedForAndOffered) {
+  backend_.advances = false;
+  KinectFusion without = make();
+  EXPECT_EQ(pattern(6, [&](int) { return advanced(without); }), "000000");
+  backend_.advances = true;
+  p_.fused = false;
+  KinectFusion singly = make();
+  EXPECT_EQ(pattern(6, [&](int) { return advanced(singly); }), "000000");
+}
+
+TEST_F(InOneGo, LeavesFramesThatAreNotTrackedToTheSingleSteps) {
+  p_.tracking_rate = 3;
+  KinectFusion fusion = make();
+  EXPECT_EQ(pattern(10, [&](int) { return advanced(fusion); }), "0000001001");
+  EXPECT_EQ(backend_.raycasts, 5);
+}
+
+TEST_F(InOneGo, AsksAsConfigured) {
+  p_.tracked_residual_m = 0.125;
+  p_.tracked_fraction = 0.25;
+  p_.solve_condition = 123;
+  p_.mu_m = 0.2;
+  p_.far_m = 3;
+  p_.init_pose = {0.25, 0.5, 0.75};
+  KinectFusion fusion = make();
+  process_fifth(fusion);
+  ASSERT_TRUE(backend_.advance_input.has_value());
+  const AdvanceInput& asked = *backend_.advance_input;
+  EXPECT_EQ(asked.limits.residual_m, 0.125);
+  EXPECT_EQ(asked.limits.inlier_fraction, 0.25);
+  EXPECT_EQ(asked.condition, 123);
+  EXPECT_EQ(asked.align.iterations, (std::vector<int>{3, 2, 1}));
+  EXPECT_TRUE(asked.align.keep_rows);
+  EXPECT_TRUE(asked.align.T_volume_camera.translation().isApprox(Eigen::Vector3d(0.5, 1.5, 3)));
+  EXPECT_EQ(asked.depth_m, backend_.metric_depth);
+  EXPECT_EQ(asked.model_vertices, asked.align.model_vertices);
+  EXPECT_EQ(asked.model_normals, asked.align.model_normals);
+  EXPECT_EQ(asked.volume->resolution, (Int3{16, 8, 12}));
+  ASSERT_TRUE(asked.integrate.has_value());
+  EXPECT_EQ(asked.integrate->mu_m, 0.2f);
+  EXPECT_EQ(asked.raycast.far_m, 3.0f);
+}
+
+TEST_F(InOneGo, IntegratesEveryRatesFrame) {
+  p_.integration_rate = 3;
+  KinectFusion fusion = make();
+  EXPECT_EQ(pattern(10,
+                    [&](int) {
+                      const bool integrated = process(fusion).integrated;
+                      const auto& asked = backend_.advance_input;
+                      EXPECT_TRUE(!asked || asked->integrate.has_value() == integrated);
+                      return integrated;
+                    }),
+            "1111001001");
+}
+
+TEST_F(InOneGo, GoesOnFromTheAlignedPose) {
+  KinectFusion fusion = make();
+  const FrameResult result = process_fifth(fusion);
+  EXPECT_TRUE(result.tracked);
+  EXPECT_TRUE(result.integrated);
+  EXPECT_EQ(result.iterations, (std::vector<int>{3, 2, 1}));
+  EXPECT_EQ(result.inliers, input.count() / 2);
+  EXPECT_DOUBLE_EQ(result.inlier_fraction, 0.5);
+  EXPECT_NEAR(result.residual_m, 0.01, 1e-12);
+  process(fusion);
+  const AlignInput& asked = backend_.advance_input->align;
+  EXPECT_TRUE(asked.T_volume_camera.isApprox(answered_pose()));
+  const Eigen::Vector3d model = answered_pose().inverse().translation();
+  expect_translation(asked.parameters.T_model_volume, model.x(), model.y(), model.z());
+}
+
+/// Whatever the figures say: the kernels behind the alignment have gone by the same word.
+TEST_F(InOneGo, TakesTheBackendsWordForALostFrame) {
+  KinectFusion fusion = make();
+  const Pose before = process_fifth(fusion).T_start_camera;
+  backend_.answer.T_volume_camera.translation().x() += 1;
+  backend_.believed = false;
+  process(fusion);
+  const FrameResult lost = process(fusion);
+  EXPECT_FALSE(lost.tracked);
+  EXPECT_FALSE(lost.integrated);
+  EXPECT_TRUE(lost.T_start_camera.isApprox(before, 0));
+  EXPECT_EQ(lost.inliers, input.count() / 2);
+  backend_.believed = true;
+  process(fusion);
+  EXPECT_TRUE(process(fusion).integrated) << "it goes on when it is found again";
+}
+
+TEST_F(InOneGo, DoesNotWaitItself) {
+  KinectFusion fusion = make();
+  process_fifth(fusion);
+  backend_.finished = 0;
+  process(fusion);
+  EXPECT_EQ(backend_.finished, 0) << "advance has waited";
+  fusion.render();
+  EXPECT_EQ(backend_.finished, 1);
+}
+
 // --- what it tells -------------------------------------------------------------------------------
 
 class Journal : public Observer {
  public:
   void stage_begin(Stage stage) override { text_ += "(" + std::string(name(stage)) + ":"; }
   void stage_end(Stage) override { text_ += ")"; }
+  void computation_begin() override { text_ += "[computation:"; }
+  void computation_end() override { text_ += "]"; }
   void kernel_begin(Kernel kernel) override { text_ += " " + std::string(name(kernel)); }
   void kernel_end(Kernel) override { text_ += "."; }
   void kernel_measured(Kernel, double) override { text_ += " measured"; }
@@ -529,6 +653,19 @@ TEST_F(Pipeline, TellsStagesAndKernelsInTheirOrder) {
   journal.take();
   fusion.render();
   EXPECT_EQ(journal.take(), "(render: render_depth. render_track. render_volume.)");
+  backend_.observe(nullptr);
+}
+
+TEST_F(InOneGo, TellsOfNoStageOfTheComputation) {
+  Journal journal;
+  backend_.observe(&journal);
+  p_.pyramid_levels = {3};
+  KinectFusion fusion(backend_, p_, input, camera, 1000, &journal);
+  for (int frame = 0; frame < 4; ++frame) process(fusion);
+  journal.take();
+  process(fusion);
+  EXPECT_EQ(journal.take(),
+            "[computation: mm2meters. bilateral_filter. depth2vertex. vertex2normal.]");
   backend_.observe(nullptr);
 }
 

@@ -19,10 +19,13 @@ class RecordingBackend final : public HostBackend {
     return missing.count(kernel) == 0 && maps.count(map) > 0;
   }
   void finish() override { ++finished; }
+  bool can_advance() const override { return advances; }
 
   std::set<Kernel> missing;
   std::set<MapKind> maps = {MapKind::grid, MapKind::bricks};
-  AlignResult answer;  ///< of the next align
+  AlignResult answer;     ///< of the next align or advance
+  bool advances = false;  ///< offers advance
+  bool believed = true;   ///< what advance says of the alignment
 
   int finished = 0;
   Size gaussian_size;
@@ -31,6 +34,7 @@ class RecordingBackend final : public HostBackend {
   std::vector<Size> half_sizes;
   std::vector<Intrinsics> level_cameras;
   std::optional<AlignInput> align_input;  ///< its pointers are the pipeline's
+  std::optional<AdvanceInput> advance_input;
   double condition = 0;
   /// What mm2meters wrote and what integrate read.
   const DeviceImage<float>*metric_depth = nullptr, *integrated_depth = nullptr;
@@ -110,6 +114,10 @@ class RecordingBackend final : public HostBackend {
     align_input = input;
     condition = solve_condition;
     return answer;
+  }
+  AdvanceResult do_advance(const AdvanceInput& input) override {
+    advance_input = input;
+    return {answer, believed};
   }
 };
 

@@ -2,9 +2,11 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #pragma once
 
+#include "backends/cuda/found_pose.h"
 #include "backends/cuda/solver.h"
 #include "backends/cuda/sums.h"
 #include "kernels/pixel.h"
+#include "kernels/tracking.h"
 
 /// The whole ICP loop in one kernel of blocks that run at the same time.
 namespace slambench::cuda {
@@ -19,12 +21,18 @@ struct AlignLevel {
   int pixels = 0, iterations = 0;
 };
 
-/// What comes back to the host.
+/// Where the loop ended.
 struct AlignOutcome {
   PoseD pose;
   Reduction last;
   int last_level = 0;
   int iterations[most_levels] = {};
+};
+
+/// What stays on the device for the kernels that follow, and comes back to the host.
+struct AlignMessage {
+  AlignOutcome outcome;
+  FoundPose found;
 };
 
 /// What each block keeps while the kernel runs. All blocks compute the same.
@@ -48,10 +56,11 @@ struct Align {
   TrackParameters parameters;
   PoseD start;
   double convergence, condition;
+  TrackingLimits limits;
   bool keep_rows;
   /// Twice sum_count for each block: one is read while the other is written.
   double* of_blocks;
-  AlignOutcome* result;
+  AlignMessage* message;
 
   template <class Grid>
   SLAMBENCH_HD void operator()(const Grid& grid) const {
@@ -140,13 +149,20 @@ struct Align {
     });
   }
 
+  SLAMBENCH_HD FoundPose found(const AlignOutcome& outcome) const {
+    const bool tracked =
+        is_finite(outcome.pose) && agrees(outcome.last, levels[outcome.last_level].pixels, limits);
+    const PoseD pose = tracked ? outcome.pose : start;
+    return {tracked ? 1 : 0, cuda::to_rigid3f(pose), cuda::to_rigid3f(inverse(pose))};
+  }
+
   template <class Block>
   SLAMBENCH_HD void end(const Block& block, AlignState& state) const {
     const AlignOutcome& outcome = state.outcome;
     const AlignLevel& level = levels[outcome.last_level];
     const bool rows = keep_rows && outcome.iterations[outcome.last_level] > 0;
     block.each([&](int thread) {
-      if (block.index() == 0 && thread == 0) *result = outcome;
+      if (block.index() == 0 && thread == 0) *message = {outcome, found(outcome)};
       const int stride = block.count() * threads;
       for (int i = block.index() * threads + thread; rows && i < level.pixels; i += stride) {
         level.rows[i] = row(level, i, state.used);

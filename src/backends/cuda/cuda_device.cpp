@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <string_view>
+#include <utility>
 
 #include "core/error.h"
 
@@ -151,6 +152,7 @@ void CudaDevice::release(void* data, std::size_t bytes) noexcept {
 }
 
 const CudaDevice::Stage& CudaDevice::next_stage() {
+  if (arrival_.bytes > 0) finish();
   stage_ ^= 1;
   SLAMBENCH_CUDA(cudaEventSynchronize(stages_[stage_].free));
   return stages_[stage_];
@@ -168,17 +170,25 @@ void CudaDevice::upload(void* device, const void* host, std::size_t bytes) {
 }
 
 void CudaDevice::download(void* host, const void* device, std::size_t bytes) {
+  fetch(host, device, bytes);
+  finish();
+}
+
+void CudaDevice::fetch(void* host, const void* device, std::size_t bytes) {
   for (std::size_t done = 0; done < bytes; done += stage_bytes) {
     const std::size_t part = std::min(stage_bytes, bytes - done);
     const Stage& stage = next_stage();
     SLAMBENCH_CUDA(cudaMemcpyAsync(stage.memory, static_cast<const unsigned char*>(device) + done,
                                    part, cudaMemcpyDeviceToHost, stream()));
-    finish();
-    std::memcpy(static_cast<unsigned char*>(host) + done, stage.memory, part);
+    arrival_ = {static_cast<unsigned char*>(host) + done, stage.memory, part};
   }
 }
 
-void CudaDevice::finish() { SLAMBENCH_CUDA(cudaStreamSynchronize(stream())); }
+void CudaDevice::finish() {
+  const Arrival arrival = std::exchange(arrival_, {});
+  SLAMBENCH_CUDA(cudaStreamSynchronize(stream()));
+  if (arrival.bytes > 0) std::memcpy(arrival.host, arrival.memory, arrival.bytes);
+}
 
 cudaEvent_t CudaDevice::timed_event() {
   cudaEvent_t event = nullptr;

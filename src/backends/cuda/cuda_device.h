@@ -40,6 +40,7 @@ class CudaDevice {
   std::size_t allocated_bytes() const { return allocated_bytes_; }
   void upload(void* device, const void* host, std::size_t bytes);
   void download(void* host, const void* device, std::size_t bytes);
+  void fetch(void* host, const void* device, std::size_t bytes);
   void finish();
   void begin(Kernel kernel);
   void end(Kernel kernel);
@@ -57,6 +58,12 @@ class CudaDevice {
     unsigned char* memory = nullptr;
     cudaEvent_t free = nullptr;  ///< recorded behind its last use
   };
+  /// A part of a stage's memory that is to go on to the host's.
+  struct Arrival {
+    void* host = nullptr;
+    const void* memory = nullptr;
+    std::size_t bytes = 0;
+  };
   struct Span {
     cudaEvent_t begin, end;
   };
@@ -70,7 +77,7 @@ class CudaDevice {
     Span span;
   };
 
-  /// The stage that was used longer ago, once it is free.
+  /// The stage that was used longer ago, once it is free. Finishes what is being fetched.
   const Stage& next_stage();
   cudaEvent_t timed_event();
   /// A span that begins here in the stream.
@@ -84,6 +91,7 @@ class CudaDevice {
   cudaStream_t stream_ = nullptr;
   Stage stages_[2];
   int stage_ = 0;
+  Arrival arrival_;  ///< of the fetch that nobody has waited for yet
   std::vector<Call> calls_;
   std::vector<Copy> copies_;
   std::vector<cudaEvent_t> idle_events_;

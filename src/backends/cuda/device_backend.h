@@ -26,7 +26,8 @@
 ///     std::size_t allocated_bytes() const;
 ///     void upload(void* device, const void* host, std::size_t bytes);    // host is free again
 ///     void download(void* host, const void* device, std::size_t bytes);  // waits
-///     void finish();                                                     // waits
+///     void fetch(void* host, const void* device, std::size_t bytes);     // host has it only after
+///     void finish();                                                     // this, which waits
 ///     void begin(Kernel), end(Kernel);     // around what counts as this kernel's time
 ///     void begin(Transfer, std::size_t bytes), end(Transfer);   // and as this transfer's
 ///     void report(Observer*);              // tells of each (null: nobody), once finished
@@ -128,7 +129,7 @@ class DeviceBackend final : public Backend {
         block_sums_(launch_, std::size_t{2} * static_cast<std::size_t>(launch_->processors()) *
                                  sum_count * sizeof(double)),
         reduction_(launch_, sizeof(Reduction)),
-        outcome_(launch_, sizeof(AlignOutcome)) {}
+        message_(launch_, sizeof(AlignMessage)) {}
 
   std::string_view name() const override { return "cuda"; }
   std::string device() const override { return launch_->device(); }
@@ -138,6 +139,7 @@ class DeviceBackend final : public Backend {
     return kernel != Kernel::acquire && (map == MapKind::grid || map == MapKind::bricks);
   }
   bool times_itself() const override { return true; }
+  bool can_advance() const override { return true; }
   void finish() override {
     launch_->finish();
     launch_->report(observer());
@@ -265,30 +267,31 @@ class DeviceBackend final : public Backend {
     return sum;
   }
   bool fuses_align() const override { return true; }
-  AlignResult do_align(const AlignInput& input, double condition) override;
+  AlignResult do_align(const AlignInput& input, double condition) override {
+    launch_align(input, condition, {});
+    AlignMessage message;
+    to_host(&message, message_.data(), sizeof message);
+    return align_result(message.outcome, input.iterations.size());
+  }
+  AdvanceResult do_advance(const AdvanceInput& input) override {
+    launch_align(input.align, input.condition, input.limits);
+    const FoundPose* found = &message_.template data<AlignMessage>()->found;
+    if (input.integrate) integrate_at(found, *input.volume, *input.depth_m, *input.integrate);
+    raycast_at(found, *input.model_vertices, *input.model_normals, *input.volume, input.raycast);
+    transfer(Transfer::to_host, sizeof received_,
+             [&] { launch_->fetch(&received_, message_.data(), sizeof received_); });
+    finish();
+    return {align_result(received_.outcome, input.align.iterations.size()),
+            received_.found.tracked != 0};
+  }
 
   void do_integrate(Volume& volume, const DeviceImage<float>& depth_m,
                     const IntegrateParameters& parameters) override {
-    const Float3 voxel_m = voxel_size(volume.resolution, volume.size_m);
-    timed(Kernel::integrate, [&] {
-      if (volume.map == MapKind::bricks) {
-        integrate_bricks(volume, depth_m, voxel_m, parameters);
-      } else {
-        launch_->voxels(volume.resolution,
-                        IntegrateGrid{voxels(volume), volume.resolution, voxel_m, pixels(depth_m),
-                                      depth_m.size, parameters});
-      }
-    });
+    integrate_at(nullptr, volume, depth_m, parameters);
   }
   void do_raycast(DeviceImage<Float3>& vertices, DeviceImage<Float3>& normals, const Volume& volume,
                   const RaycastParameters& parameters) override {
-    timed(Kernel::raycast, [&] {
-      with_rays(volume, parameters, vertices.size, [&](const auto& rays) {
-        launch_->pixels(vertices.size,
-                        Raycast<std::decay_t<decltype(rays)>>{rays, parameters, pixels(vertices),
-                                                              pixels(normals), vertices.size});
-      });
-    });
+    raycast_at(nullptr, vertices, normals, volume, parameters);
   }
   void do_render_depth(DeviceImage<Rgba8>& image, const DeviceImage<float>& depth_m, float near_m,
                        float far_m) override {
@@ -305,7 +308,7 @@ class DeviceBackend final : public Backend {
   void do_render_volume(DeviceImage<Rgba8>& image, const Volume& volume,
                         const RaycastParameters& view, const ShadeParameters& shading) override {
     timed(Kernel::render_volume, [&] {
-      with_rays(volume, view, image.size, [&](const auto& rays) {
+      with_rays(nullptr, volume, view, image.size, [&](const auto& rays) {
         launch_->pixels(image.size, RenderVolume<std::decay_t<decltype(rays)>>{
                                         rays, view, shading, pixels(image), image.size});
       });
@@ -323,18 +326,19 @@ class DeviceBackend final : public Backend {
     f();
     if (heard) launch_->end(kernel);
   }
-  /// Transfers with their time reported, through pinned memory or not: the way there is part of it.
-  void to_device(void* device, const void* host, std::size_t bytes) {
+  /// The same of a transfer, through pinned memory or not: the way there is part of it.
+  template <class F>
+  void transfer(Transfer direction, std::size_t bytes, const F& f) {
     const bool heard = observer() != nullptr;
-    if (heard) launch_->begin(Transfer::to_device, bytes);
-    launch_->upload(device, host, bytes);
-    if (heard) launch_->end(Transfer::to_device);
+    if (heard) launch_->begin(direction, bytes);
+    f();
+    if (heard) launch_->end(direction);
+  }
+  void to_device(void* device, const void* host, std::size_t bytes) {
+    transfer(Transfer::to_device, bytes, [&] { launch_->upload(device, host, bytes); });
   }
   void to_host(void* host, const void* device, std::size_t bytes) {
-    const bool heard = observer() != nullptr;
-    if (heard) launch_->begin(Transfer::to_host, bytes);
-    launch_->download(host, device, bytes);
-    if (heard) launch_->end(Transfer::to_host);
+    transfer(Transfer::to_host, bytes, [&] { launch_->download(host, device, bytes); });
   }
 
   static int count(Size size) { return size.width * size.height; }
@@ -381,8 +385,32 @@ class DeviceBackend final : public Backend {
     return (*buffer)->data();
   }
 
-  void integrate_bricks(Volume& volume, const DeviceImage<float>& depth_m, Float3 voxel_m,
-                        const IntegrateParameters& parameters) {
+  void launch_align(const AlignInput& input, double condition, const TrackingLimits& limits);
+  static AlignResult align_result(const AlignOutcome& outcome, std::size_t levels);
+
+  /// Launches a kernel at the pose found on the device, or without one where its parameters say.
+  template <class F, class Go>
+  static void at(const FoundPose* found, const F& kernel, const Go& go) {
+    if (found != nullptr) return go(AtFoundPose<F>{kernel, found});
+    go(kernel);
+  }
+
+  void integrate_at(const FoundPose* found, Volume& volume, const DeviceImage<float>& depth_m,
+                    const IntegrateParameters& parameters) {
+    const Float3 voxel_m = voxel_size(volume.resolution, volume.size_m);
+    timed(Kernel::integrate, [&] {
+      if (volume.map == MapKind::bricks) {
+        return integrate_bricks(found, volume, depth_m, voxel_m, parameters);
+      }
+      at(found,
+         IntegrateGrid{voxels(volume), volume.resolution, voxel_m, pixels(depth_m), depth_m.size,
+                       parameters},
+         [&](const auto& kernel) { launch_->voxels(volume.resolution, kernel); });
+    });
+  }
+
+  void integrate_bricks(const FoundPose* found, Volume& volume, const DeviceImage<float>& depth_m,
+                        Float3 voxel_m, const IntegrateParameters& parameters) {
     const BrickMap& map = bricks(volume);
     const Size size = depth_m.size,
                s = tiles_of(size, DepthPyramid::edge(DepthPyramid::levels - 1));
@@ -394,14 +422,30 @@ class DeviceBackend final : public Backend {
         map,  voxel_m,    pixels(depth_m),
         size, parameters, 1e-5f * std::max({size_m.x, size_m.y, size_m.z})};
     launch_->blocks(s.width * s.height, BuildDepthPyramid{pyramid, pixels(depth_m), map.counters});
-    launch_->blocks(parts_of(map.count(), ClassifyBricks::threads),
-                    ClassifyBricks{measurement, pyramid});
-    launch_->blocks(brick_blocks(volume), IntegrateBricks{measurement});
+    at(found, ClassifyBricks{measurement, pyramid}, [&](const auto& kernel) {
+      launch_->blocks(parts_of(map.count(), ClassifyBricks::threads), kernel);
+    });
+    at(found, IntegrateBricks{measurement},
+       [&](const auto& kernel) { launch_->blocks(brick_blocks(volume), kernel); });
+  }
+
+  void raycast_at(const FoundPose* found, DeviceImage<Float3>& vertices,
+                  DeviceImage<Float3>& normals, const Volume& volume,
+                  const RaycastParameters& parameters) {
+    timed(Kernel::raycast, [&] {
+      with_rays(found, volume, parameters, vertices.size, [&](const auto& rays) {
+        at(found,
+           Raycast<std::decay_t<decltype(rays)>>{rays, parameters, pixels(vertices),
+                                                 pixels(normals), vertices.size},
+           [&](const auto& kernel) { launch_->pixels(vertices.size, kernel); });
+      });
+    });
   }
 
   /// Calls f with what casts rays through the volume.
   template <class F>
-  void with_rays(const Volume& volume, const RaycastParameters& view, Size size, const F& f) {
+  void with_rays(const FoundPose* found, const Volume& volume, const RaycastParameters& view,
+                 Size size, const F& f) {
     if (volume.map == MapKind::grid) {
       return f(GridRays{{voxels(volume), volume.resolution, volume.size_m}});
     }
@@ -411,12 +455,14 @@ class DeviceBackend final : public Backend {
     start.depths = static_cast<float*>(
         scratch(&start_depths_, static_cast<std::size_t>(tiles) * sizeof(float)));
     launch_->elements(tiles, ClearStartDepths{start});
-    launch_->elements(map.count(), MarkStartDepths{map, view, start});
+    at(found, MarkStartDepths{map, view, start},
+       [&](const auto& kernel) { launch_->elements(map.count(), kernel); });
     f(BrickRays{map, start});
   }
 
   std::shared_ptr<Launch> launch_;
-  Buffer<Launch> block_sums_, reduction_, outcome_;
+  Buffer<Launch> block_sums_, reduction_, message_;
+  AlignMessage received_;  ///< of the last frame's
   std::unique_ptr<Buffer<Launch>> pyramid_, start_depths_;
 };
 
@@ -439,7 +485,8 @@ inline Pose to_pose(const PoseD& d) {
 }
 
 template <class Launch>
-AlignResult DeviceBackend<Launch>::do_align(const AlignInput& input, double condition) {
+void DeviceBackend<Launch>::launch_align(const AlignInput& input, double condition,
+                                         const TrackingLimits& limits) {
   const std::size_t levels = input.iterations.size();
   check(levels <= most_levels, "align: more levels than the device's kernel takes");
   Align align{};
@@ -455,13 +502,15 @@ AlignResult DeviceBackend<Launch>::do_align(const AlignInput& input, double cond
   align.start = to_pose_d(input.T_volume_camera);
   align.convergence = input.convergence;
   align.condition = condition;
+  align.limits = limits;
   align.keep_rows = input.keep_rows;
   align.of_blocks = block_sums_.template data<double>();
-  align.result = outcome_.template data<AlignOutcome>();
+  align.message = message_.template data<AlignMessage>();
   timed(Kernel::align, [&] { launch_->grid(align); });
+}
 
-  AlignOutcome outcome;
-  to_host(&outcome, align.result, sizeof outcome);
+template <class Launch>
+AlignResult DeviceBackend<Launch>::align_result(const AlignOutcome& outcome, std::size_t levels) {
   AlignResult result;
   result.T_volume_camera = to_pose(outcome.pose);
   result.last = outcome.last;

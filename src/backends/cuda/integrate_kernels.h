@@ -5,12 +5,15 @@
 #include <cmath>
 
 #include "backends/cuda/brick_map.h"
+#include "backends/cuda/found_pose.h"
 
 /// integrate: the flat volume voxel by voxel; of the bricks only those that a measurement changes.
 namespace slambench::cuda {
 
 /// One row of voxels of the flat volume: threads of a block take neighbouring ones.
 struct IntegrateGrid {
+  static constexpr bool of_tracked_frames = true;
+
   Voxel* voxels;
   Int3 resolution;
   Float3 voxel_m;
@@ -25,6 +28,9 @@ struct IntegrateGrid {
     integrate_voxel(
         voxels + row * static_cast<std::size_t>(resolution.x) + static_cast<std::size_t>(x), center,
         depth_m, size, parameters);
+  }
+  SLAMBENCH_HD void move_to(const FoundPose& found) {
+    parameters.T_camera_volume = found.T_camera_volume;
   }
 };
 
@@ -206,6 +212,7 @@ SLAMBENCH_HD inline BrickChange change_of(const BrickMeasurement& in, const Dept
 
 /// Counts a measurement of the bricks that are and stay free, and lists those to look at.
 struct ClassifyBricks {
+  static constexpr bool of_tracked_frames = true;
   static constexpr int threads = 128;
   struct Shared {};
 
@@ -231,10 +238,14 @@ struct ClassifyBricks {
         &in.map.counters->varied, [&](int thread) { return varied(first + thread); },
         [&](int thread, int place) { in.map.varied[place] = first + thread; });
   }
+  SLAMBENCH_HD void move_to(const FoundPose& found) {
+    in.parameters.T_camera_volume = found.T_camera_volume;
+  }
 };
 
 /// Updates the listed bricks, whole ones by one block.
 struct IntegrateBricks {
+  static constexpr bool of_tracked_frames = true;
   static constexpr int threads = brick_voxels;
   using Shared = BrickInHand;
 
@@ -259,6 +270,9 @@ struct IntegrateBricks {
       });
       if (changed) store(block, in.map, brick, hand);
     }
+  }
+  SLAMBENCH_HD void move_to(const FoundPose& found) {
+    in.parameters.T_camera_volume = found.T_camera_volume;
   }
 };
 

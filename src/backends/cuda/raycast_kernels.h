@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "backends/cuda/brick_map.h"
+#include "backends/cuda/found_pose.h"
 
 /// raycast and render_volume. Through bricks, rays pass over what is known to be free: they add up
 /// the same depths as slambench::find_surface and find the same surface.
@@ -56,6 +57,8 @@ SLAMBENCH_HD inline int tile_at(float pixel, int tiles) {
 
 /// Lowers the start depths of the tiles that see brick i, if it has distances of its own.
 struct MarkStartDepths {
+  static constexpr bool of_tracked_frames = false;
+
   BrickMap map;
   RaycastParameters view;
   StartDepths start;
@@ -108,6 +111,9 @@ struct MarkStartDepths {
         atomic_lower(start.depths + ty * tiles.width + tx, near_m);
       }
     }
+  }
+  SLAMBENCH_HD void move_to(const FoundPose& found) {
+    view.T_volume_camera = found.T_volume_camera;
   }
 };
 
@@ -185,6 +191,7 @@ struct BrickRays {
 
 template <class Rays>
 struct Raycast {
+  static constexpr bool of_tracked_frames = false;
   /// Rays of a warp should stay together.
   static constexpr bool square = true;
 
@@ -196,6 +203,9 @@ struct Raycast {
   SLAMBENCH_HD void operator()(int x, int y) const {
     const int i = pixel_index(size, x, y);
     rays.cast(x, y, parameters, &vertices[i], &normals[i]);
+  }
+  SLAMBENCH_HD void move_to(const FoundPose& found) {
+    parameters.T_volume_camera = found.T_volume_camera;
   }
 };
 

@@ -31,6 +31,26 @@ SLAMBENCH_HD inline double norm(const Twist& twist) {
   return sqrt(sum);
 }
 
+SLAMBENCH_HD inline bool is_finite(const PoseD& pose) {
+  bool finite = true;
+  for (const double entry : pose.rotation) finite = finite && is_finite(entry);
+  for (const double entry : pose.translation) finite = finite && is_finite(entry);
+  return finite;
+}
+
+SLAMBENCH_HD inline PoseD inverse(const PoseD& pose) {
+  PoseD result;
+  for (int i = 0; i < 3; ++i) {
+    double translation = 0;
+    for (int k = 0; k < 3; ++k) {
+      result.rotation[3 * i + k] = pose.rotation[3 * k + i];
+      translation += pose.rotation[3 * k + i] * pose.translation[k];
+    }
+    result.translation[i] = -translation;
+  }
+  return result;
+}
+
 /// exp(twist) * pose, as core/se3.h defines it.
 SLAMBENCH_HD inline PoseD moved(const PoseD& pose, const Twist& twist) {
   const double *v = twist.v, *w = twist.v + 3;

@@ -60,6 +60,12 @@ function stageChart(colors, among) {
     }),
     hovertemplate: `<b>${stage}</b>, %{customdata[0]}<br>%{x:.3f} ms a frame, %{customdata[1]}<br>where it ran, 95 % within %{customdata[2]}<extra></extra>`,
   }));
+  const between = (run) => run.record.time.between_stages?.seconds_per_frame ?? 0;
+  if (shown.some(between)) {
+    traces.push({type: "bar", orientation: "h", name: "between", y: shown.map((_, i) => i),
+      x: shown.map((run) => between(run) * 1e3), marker: {color: colors.line, line: {color: colors.page, width: 1}},
+      hovertemplate: "launching and waiting<br>%{x:.3f} ms a frame<extra></extra>"});
+  }
   const ranges = shown.map((run) => interval(run.record, "time.computation_s.mean", 1e3));
   const ends = shown.map((run, i) => Math.max(total(run), ranges[i]?.high ?? 0));
   const longest = Math.max(...ends);
