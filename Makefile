@@ -43,7 +43,7 @@ run: dependencies
 	@build/release/apps/slambench/slambench run $(ARGS)
 
 # Goes on where it was interrupted. ARGS='--frames=50 --out=results/try' tries it out.
-paper: OUT = $(or $(patsubst --out=%,%,$(filter --out=%,$(ARGS))),results/paper)
+paper: OUT = $(or $(patsubst --out=%,%,$(filter --out=%,$(subst --out ,--out=,$(ARGS)))),results/paper)
 paper: dependencies
 	@cmake --preset release
 	@cmake --build --preset release --parallel $(JOBS) --target slambench

@@ -16,8 +16,6 @@
 #include <vector>
 
 #include "all_parameters.h"
-#include "analysis/figure.h"
-#include "analysis/stored_run.h"
 #include "child_process.h"
 #include "commands.h"
 #include "config/presets.h"
@@ -34,6 +32,7 @@
 #include "suite/suite_plan.h"
 #include "suite/suite_summary.h"
 #include "suite_progress.h"
+#include "suite_runner.h"
 #include "terminal.h"
 
 namespace slambench {
@@ -225,129 +224,14 @@ void require_own(const std::string& folder, const std::vector<Misfit>& foreign) 
       folder, misfits_text(foreign), folder));
 }
 
-/// Results of an interrupted run are worth nothing; of one that is not valid they say why.
-void discard(const std::string& folder, const std::string& path) {
-  std::error_code error;
-  if (fs::symlink_status(path, error).type() != fs::file_type::directory) return;  // not ours
-  bool complete = false;
-  try {
-    complete = read_stored_run(path).complete();
-  } catch (const InputError&) {  // it is half
-  }
-  if (complete) {
-    put_away(folder, "failed", path);
-  } else {
-    fs::remove_all(path, error);
-  }
-}
-
 /// Leaves nothing in the folder but what counts.
 void take_over(const std::string& folder, const SuitePlan& plan, const SuiteBuild& build,
                const SuiteResults& results) {
   for (const Misfit& misfit : results.foreign) put_away(folder, "set-aside", misfit.path);
-  for (const Misfit& misfit : results.half) discard(folder, misfit.path);
+  for (const Misfit& misfit : results.half) discard_results(folder, misfit.path);
   remove_suite_leftovers(folder);
   write_suite(folder, plan.title, plan.configurations, build);
 }
-
-/// The last thing it said, or how it ended.
-std::string failure_text(const ChildOutcome& outcome) {
-  constexpr int signals = 128;
-  if (outcome.status > signals) return fmt::format("ended by signal {}", outcome.status - signals);
-  std::string text = outcome.err;
-  while (text.ends_with('\n')) text.pop_back();
-  text = text.substr(text.rfind('\n') + 1);
-  constexpr std::string_view prefix = "slambench: ";
-  if (text.starts_with(prefix)) text = text.substr(prefix.size());
-  return fmt::format("status {}{}{}", outcome.status, text.empty() ? "" : ": ", text);
-}
-
-std::string run_name(const Configuration& configuration, const PlannedRun& run) {
-  return run.repetition == 0 ? configuration.folder + ", warming up"
-                             : fmt::format("{}/{}", configuration.folder, run.repetition);
-}
-
-/// One suite at work.
-class SuiteRunner {
- public:
-  SuiteRunner(const SuiteArguments& arguments, const SuitePlan& plan, std::string folder,
-              std::vector<PlannedRun> runs, std::vector<int> frames, SuiteResults results)
-      : arguments_(arguments),
-        configurations_(plan.configurations),
-        folder_(std::move(folder)),
-        frames_(std::move(frames)),
-        results_(std::move(results)),
-        runs_(std::move(runs)) {
-    for (const auto& [run, cost] : results_.done) times_.add(of(run), cost);
-  }
-
-  const std::vector<PlannedRun>& runs() const { return runs_; }
-  const SuiteResults& results() const { return results_; }
-  const std::vector<std::string>& failures() const { return failures_; }
-
-  std::vector<std::string> arguments_of(const PlannedRun& run) const {
-    auto words = run_arguments(of(run));
-    words.push_back("--out=" + run_folder(folder_, of(run), run));
-    return words;
-  }
-
-  void run_all(const InterruptFlag& interrupt) {
-    SuiteProgress progress(runs_.size(), steady_clock(), !arguments_.quiet);
-    for (std::size_t i = 0; i < runs_.size() && !interrupt.raised().load(); ++i) {
-      run_one(i, interrupt, &progress);
-    }
-  }
-
- private:
-  const Configuration& of(const PlannedRun& run) const {
-    return configurations_[run.configuration];
-  }
-
-  std::optional<double> expected_s(std::size_t from) const {
-    double sum = 0;
-    for (std::size_t i = from; i < runs_.size(); ++i) {
-      const auto one = times_.expected_s(of(runs_[i]), frames_[runs_[i].configuration]);
-      if (!one) return std::nullopt;
-      sum += *one;
-    }
-    return sum;
-  }
-
-  void run_one(std::size_t i, const InterruptFlag& interrupt, SuiteProgress* progress) {
-    const PlannedRun& run = runs_[i];
-    const std::string path = run_folder(folder_, of(run), run);
-    auto words = arguments_of(run);
-    words.push_back("--quiet");
-    progress->begin(i, run_name(of(run), run), expected_s(i));
-    const ChildOutcome outcome = run_child(arguments_.program, words, [&] {
-      progress->show();
-      return !interrupt.raised().load();
-    });
-    if (outcome.status == 0) {
-      const StoredRun stored = read_stored_run(path);
-      const RunCost cost = cost_of(stored);
-      times_.add(of(run), cost);
-      progress->end(value_of("time.fps_computation", stored), expected_s(i + 1));
-      if (run.repetition > 0) results_.done[run] = cost;
-    } else {
-      discard(folder_, path);
-      if (interrupt.raised().load()) return;
-      const std::string reason = failure_text(outcome);
-      failures_.push_back(fmt::format("{} ({})", run_name(of(run), run), reason));
-      progress->fail(reason);
-    }
-    if (outcome.status != 0 || run.repetition == 0) remove_suite_leftovers(folder_);
-  }
-
-  const SuiteArguments& arguments_;
-  const std::vector<Configuration>& configurations_;
-  const std::string folder_;
-  const std::vector<int> frames_;
-  SuiteResults results_;
-  const std::vector<PlannedRun> runs_;
-  RunTimes times_;
-  std::vector<std::string> failures_;
-};
 
 /// Two configurations that a user may want to compare and that compute the same: on one sequence
 /// with one preset, the first and the last. "" when there are no two.
@@ -373,7 +257,7 @@ void report(const SuitePlan& plan, const SuiteRunner& runner, const std::string&
   std::vector<std::string> problems;
   for (std::size_t i = 0; i < plan.configurations.size(); ++i) {
     const auto count = std::ranges::count_if(
-        runner.results().done, [&](const auto& done) { return done.first.configuration == i; });
+        runner.done(), [&](const auto& done) { return done.first.configuration == i; });
     if (count == 0 && !plan.configurations[i].runs_today()) continue;
     shown.push_back(plan.configurations[i]);
     results.push_back(
@@ -403,9 +287,8 @@ void report(const SuitePlan& plan, const SuiteRunner& runner, const std::string&
 
 /// A shell script: what is done or cannot be done is a comment.
 std::string listing(const SuitePlan& plan, const SuiteRunner& runner, const std::string& program) {
-  std::string text =
-      fmt::format("# {}: {} configurations, {} runs to do, {} done\n", plan.title, plan.running(),
-                  runner.runs().size(), runner.results().done.size());
+  std::string text = fmt::format("# {}: {} configurations, {} runs to do, {} done\n", plan.title,
+                                 plan.running(), runner.runs().size(), runner.done().size());
   for (const std::string& sentence : plan.left_out()) {
     text += fmt::format("# left out: {}\n", sentence);
   }
@@ -445,22 +328,23 @@ ExitStatus run(SuiteArguments& arguments) {
   auto frames =
       prepare_sequences(plan.configurations, runs, !arguments.dry_run, !arguments.quiet, interrupt);
   if (!arguments.dry_run) take_over(folder, plan, build, results);
-  SuiteRunner runner(arguments, plan, folder, std::move(runs), std::move(frames),
-                     std::move(results));
+  SuiteRunner runner(arguments.program, folder, plan.configurations, std::move(runs),
+                     std::move(frames), std::move(results));
   if (arguments.dry_run) {
     print(listing(plan, runner, arguments.program));
     return ExitStatus::ok;
   }
-  const std::size_t before = runner.results().done.size();
+  const std::size_t before = runner.done().size();
   if (!arguments.quiet) {
     print(fmt::format("{}: {} configurations, {} runs to do, {} done before\n", plan.title,
                       plan.running(), runner.runs().size(), before));
   }
-  runner.run_all(interrupt);
+  SuiteProgress progress(runner.runs().size(), steady_clock(), !arguments.quiet);
+  runner.run_all(interrupt, &progress);
   if (interrupt.raised().load()) {
     throw Error(ExitStatus::failed,
                 fmt::format("interrupted; {} runs are done; the same command goes on from there",
-                            runner.results().done.size()));
+                            runner.done().size()));
   }
   report(plan, runner, folder, lists, arguments.quiet);
   return ExitStatus::ok;

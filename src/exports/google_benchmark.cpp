@@ -26,7 +26,7 @@ constexpr const char* no_cpu_time =
 /// Repeated runs under the name that their entries begin with.
 struct Configuration {
   std::string name;
-  std::vector<const StoredRun*> runs;
+  std::vector<const ExportRun*> runs;
 };
 
 /// A command for a shell that exports one run by itself.
@@ -54,13 +54,14 @@ std::vector<Configuration> configurations(const std::vector<ExportRun>& runs,
     const std::string name = prefix(each.run, backends.size() > 1);
     auto it = std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.name == name; });
     if (it == all.end()) it = all.insert(all.end(), {name, {}});
-    it->runs.push_back(&each.run);
-    const auto differ = differences(*it->runs.front(), each.run, roles);
+    it->runs.push_back(&each);
+    const ExportRun& first = *it->runs.front();
+    const auto differ = differences(first.run, each.run, roles);
     if (differ.empty()) continue;
     throw InputError(fmt::format(
         "{} and {} would have the same names in one file and are no repeats of one another: they "
-        "differ in {}; export them to files of their own: {}",
-        it->runs.front()->path, each.run.path, list_text(differ), command_for(each)));
+        "differ in {}; export them to files of their own: {} && {}",
+        first.run.path, each.run.path, list_text(differ), command_for(first), command_for(each)));
   }
   return all;
 }
@@ -104,12 +105,13 @@ Json entry_of(const std::string& name, const StoredRun& run, double seconds) {
 void add_entries(const Configuration& of, const NamedFigure& figure, std::size_t family,
                  Json* benchmarks) {
   std::vector<Json> entries;
-  for (const StoredRun* run : of.runs) {
-    const std::vector<double> values = values_of(figure.place, *run);
+  for (const ExportRun* each : of.runs) {
+    const StoredRun& run = each->run;
+    const std::vector<double> values = values_of(figure.place, run);
     for (std::size_t i = 0; i < values.size(); ++i) {
-      Json entry = entry_of(fmt::format("{}/{}", of.name, entry_name(figure)), *run, values[i]);
-      if (figure.name == "computation_s" && values.size() == run->run_count()) {
-        add_counters(*run, i, &entry);
+      Json entry = entry_of(fmt::format("{}/{}", of.name, entry_name(figure)), run, values[i]);
+      if (figure.name == "computation_s" && values.size() == run.run_count()) {
+        add_counters(run, i, &entry);
       }
       entries.push_back(std::move(entry));
     }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "runner/runner.h"
@@ -102,6 +103,18 @@ TEST_F(SuiteFolderTest, ResultsOfOtherSettingsNameThem) {
   ASSERT_THAT(foreign, SizeIs(2));
   EXPECT_EQ(foreign[0].reason, "is of other settings: frames 30, expected 20");
   EXPECT_EQ(foreign[1].reason, "is of no configuration of the suite");
+}
+
+TEST_F(SuiteFolderTest, OnlyCompleteResultsThatDoNotCountAreKept) {
+  write_result("a/1", "abc");
+  folder_.write("out/a/2/record.json", "{\"format\": \"slamb");
+  folder_.write("out/a/3", "a file");
+  for (const char* place : {"a/1", "a/2", "a/3", "a/4"}) discard_results(out_, out_ + "/" + place);
+  namespace fs = std::filesystem;
+  EXPECT_FALSE(fs::exists(out_ + "/a/1"));
+  EXPECT_FALSE(fs::exists(out_ + "/a/2"));
+  EXPECT_TRUE(fs::exists(out_ + "/a/3")) << "not what a run leaves";
+  EXPECT_EQ(std::distance(fs::directory_iterator(out_ + "/.failed"), {}), 1);
 }
 
 }  // namespace
