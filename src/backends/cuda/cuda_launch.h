@@ -111,8 +111,9 @@ __global__ void __launch_bounds__(F::threads) run_blocks(const __grid_constant__
   f(DeviceBlock(), *reinterpret_cast<Shared*>(memory));
 }
 
+/// The threads of its one block a multiprocessor may have all registers.
 template <class F>
-__global__ void __launch_bounds__(F::threads) run_grid(const __grid_constant__ F f) {
+__global__ void __launch_bounds__(F::threads, 1) run_grid(const __grid_constant__ F f) {
   using Shared = typename F::Shared;
   __shared__ alignas(alignof(Shared)) unsigned char memory[sizeof(Shared)];
   f(DeviceGrid<Shared>(*reinterpret_cast<Shared*>(memory)));
