@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,18 @@ TEST(OpenclParameters, FillInWhatSuitsTheKindOfDevice) {
   EXPECT_EQ(layout.group, 32);
   EXPECT_EQ(layout.lanes, 8);
   EXPECT_EQ(layout.per_item, OpenclParameters{}.layout("raycast", true).per_item);
+}
+
+TEST(OpenclParameters, GiveAKernelItsOwnBuildOptionsAfterThoseOfAll) {
+  OpenclParameters parameters;
+  EXPECT_EQ(parameters.build_options_of("start_depths"), "");
+  const std::vector<ParameterList> lists = {parameters.describe()};
+  set_from_text(*find(lists, "opencl-start-depths-options"), "-DA=2");
+  EXPECT_EQ(parameters.build_options_of("start_depths"), "-DA=2");
+  set_from_text(*find(lists, "opencl-build-options"), "-DA=1 -w");
+  EXPECT_EQ(parameters.build_options_of("start_depths"), "-DA=1 -w -DA=2");
+  EXPECT_EQ(parameters.build_options_of("raycast"), "-DA=1 -w");
+  EXPECT_THROW(parameters.build_options_of("start-depths"), std::invalid_argument);
 }
 
 TEST(OpenclParameters, RefuseWhatNoKernelCanHave) {

@@ -174,6 +174,23 @@ TEST_F(Opencl, ABuildThatFailsShowsTheLog) {
                     HasSubstr("error:")));
 }
 
+/// Sets a parameter as a user does.
+void set(OpenclParameters* parameters, const char* name, const char* text) {
+  const std::vector<ParameterList> lists = {parameters->describe()};
+  set_from_text(*find(lists, name), text);
+}
+
+TEST_F(Opencl, BuildOptionsOfAKernelAreItsAlone) {
+  OpenclParameters parameters;
+  set(&parameters, "opencl-half-sample-options", "-DRowPacket=5");
+  const auto backend = make_opencl_backend(0, parameters);
+  auto depth = backend->make_image<float>({8, 8}), half = backend->make_image<float>({4, 4});
+  auto vertices = backend->make_image<Float3>({8, 8});
+  EXPECT_NO_THROW(backend->depth2vertex(vertices, depth, {8, 8, 4, 4}));
+  EXPECT_THAT(testing::message_of<Error>([&] { backend->half_sample(half, depth, 0.1f); }),
+              AllOf(HasSubstr("half_sample.cl does not build"), HasSubstr("-DRowPacket=5")));
+}
+
 TEST_F(Opencl, AKernelOverTheLocalMemoryIsUnavailable) {
   if (!tells_local_memory()) GTEST_SKIP() << "PoCL does not tell what a kernel needs";
   OpenclParameters parameters;
@@ -199,26 +216,48 @@ TEST_F(Opencl, MemoryThatTheDeviceDoesNotHaveIsUnavailable) {
                UnavailableError);
 }
 
-TEST_F(Opencl, ProgramsAreKeptAndABrokenOneIsBuiltAnew) {
-  const testing::TemporaryFolder folder;
-  const testing::Environment cache("XDG_CACHE_HOME", folder.path().c_str());
-  const auto halved = [] {
-    const auto backend = make_opencl_backend(0, {});
+/// What half_sample makes of 2.5 everywhere, with the programs kept in a folder of the test's own.
+class OpenclCache : public Opencl {
+ protected:
+  static void expect_right(const OpenclParameters& parameters) {
+    const auto backend = make_opencl_backend(0, parameters);
     auto half = backend->make_image<float>({4, 4});
     backend->half_sample(half, testing::uploaded(*backend, Image<float>({8, 8}, 2.5f)), 0.1f);
-    return testing::downloaded(*backend, half);
-  };
-  const Image<float> expected({4, 4}, 2.5f);
-  EXPECT_EQ(halved(), expected);
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder.path("slambench/opencl"))) {
-    files.push_back(entry.path());
+    EXPECT_EQ(testing::downloaded(*backend, half), Image<float>({4, 4}, 2.5f));
   }
-  ASSERT_EQ(files.size(), 1U);
-  EXPECT_EQ(halved(), expected);
-  folder.write("slambench/opencl/" + files[0].filename().string(), "no program");
-  EXPECT_EQ(halved(), expected);
-  EXPECT_GT(fs::file_size(files[0]), std::string("no program").size());
+  std::vector<fs::path> files() const {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder_.path("slambench/opencl"))) {
+      files.push_back(entry.path());
+    }
+    return files;
+  }
+
+  testing::TemporaryFolder folder_;
+  testing::Environment cache_{"XDG_CACHE_HOME", folder_.path().c_str()};
+};
+
+TEST_F(OpenclCache, KeepsAProgramAndABrokenOneIsBuiltAnew) {
+  expect_right({});
+  ASSERT_EQ(files().size(), 1U);
+  const std::string file = files()[0].filename().string();
+  expect_right({});
+  ASSERT_EQ(files().size(), 1U);
+  folder_.write("slambench/opencl/" + file, "no program");
+  expect_right({});
+  EXPECT_GT(fs::file_size(files()[0]), std::string("no program").size());
+}
+
+TEST_F(OpenclCache, TellsProgramsOfOtherBuildOptionsApart) {
+  expect_right({});
+  OpenclParameters parameters;
+  set(&parameters, "opencl-half-sample-options", "-DA=1");
+  expect_right(parameters);
+  EXPECT_EQ(files().size(), 2U);
+  set(&parameters, "opencl-half-sample-options", "");
+  set(&parameters, "opencl-depth2vertex-options", "-DA=1");
+  expect_right(parameters);
+  EXPECT_EQ(files().size(), 2U);
 }
 
 TEST_F(Opencl, NeedsNoHome) {
@@ -290,8 +329,16 @@ INSTANTIATE_TEST_SUITE_P(
                   {"--opencl-build-options=-Dhalf_sample=5"},
                   1,
                   {"half_sample.cl does not build on", "the compiler says:\n  ", "error: "}},
+        ErrorCase{"BuildFailureOfOneKernel",
+                  {"--opencl-track-options=-DRowPacket=5", "--opencl-align-options=-DRowPacket=5"},
+                  1,
+                  {"align.cl does not build on", "-DRowPacket=5'; the compiler says:\n  "}},
+        ErrorCase{"NoSuchBuildOption",
+                  {"--opencl-build-options=-no-such-option"},
+                  2,
+                  {".cl does not build on", "-no-such-option'; the compiler says:\n  "}},
         ErrorCase{"LocalMemory",
-                  {"--opencl-build-options=-DMOST_TILES=100000000"},
+                  {"--opencl-start-depths-options=-DMOST_TILES=100000000"},
                   4,
                   {"kernel start_depths: found 400000000 bytes of local memory needed"}},
         ErrorCase{"Memory",

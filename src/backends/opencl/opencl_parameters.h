@@ -23,7 +23,9 @@ struct OpenclParameters {
 
   /// Group, lanes, packets per work-item of each kernel; 0: what suits the device.
   std::array<std::array<int, 3>, kernels> layouts{};
+  /// Further options of the compiler: for every kernel, and after them each kernel's own.
   std::string build_options;
+  std::array<std::string, kernels> kernel_build_options;
 
   ParameterList describe();
   /// Of kernels/NAME.cl, with the defaults of the kind of device filled in. Throws UsageError for
@@ -31,6 +33,9 @@ struct OpenclParameters {
   KernelLayout layout(std::string_view name, bool on_processor) const;
   /// Throws the same for the first of all kernels.
   void check_layouts(bool on_processor) const;
+  /// All that the compiler is to be given for kernels/NAME.cl. Of two that contradict each other
+  /// compilers take the later: the kernel's own.
+  std::string build_options_of(std::string_view name) const;
 };
 
 }  // namespace slambench

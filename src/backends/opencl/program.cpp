@@ -90,10 +90,11 @@ cl::Program compiled(const cl::Context& context, const OpenclDevice& device,
   } catch (const cl::BuildError& error) {
     std::string log;
     for (const auto& [of, text] : error.getBuildLog()) log += text;
-    throw LoggedError(ExitStatus::failed,
-                      fmt::format("opencl: {}.cl does not build on {} with '{}'; the compiler says",
-                                  name, device.name, options),
-                      log);
+    throw LoggedError(
+        error.err() == CL_INVALID_BUILD_OPTIONS ? ExitStatus::usage : ExitStatus::failed,
+        fmt::format("opencl: {}.cl does not build on {} with '{}'; the compiler says", name,
+                    device.name, options),
+        log);
   }
   return program;
 }
@@ -115,7 +116,8 @@ DeviceKernel& Programs::get(const std::string& name, const std::string& macros) 
 DeviceKernel Programs::build(const std::string& name, const std::string& macros) const {
   DeviceKernel result;
   result.layout = parameters_.layout(name, device_.is_processor);
-  const std::string options = options_of(device_, result.layout, macros, parameters_.build_options);
+  const std::string options =
+      options_of(device_, result.layout, macros, parameters_.build_options_of(name));
   const std::string source = source_of(name);
   const std::string file = cache_file(device_, options, source);
   with_opencl_errors(device_.name, [&] {
