@@ -146,6 +146,38 @@ TEST_F(Opencl, BricksGrowWithWhatIsSeen) {
   EXPECT_LT(backend->volume_bytes(volume), std::size_t{128 * 128 * 128 * 4});
 }
 
+/// What was seen is drawn as it is, and only what was not is looked for.
+TEST_F(Opencl, DrawsWhatWasSeen) {
+  const auto backend = make_opencl_backend(0, {});
+  const Size size{21, 9};
+  const Intrinsics camera{20, 20, 10, 4};
+  Volume volume = backend->make_volume(MapKind::bricks, {64, 64, 64}, {2, 2, 2});
+  const Rigid3f from_before{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}};
+  const Rigid3f to_camera{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, -1, 0}};
+  auto wall = testing::uploaded(*backend, Image<float>(size, 1.2f));
+  backend->integrate(volume, wall, {to_camera, camera, 0.1f, 100, 0.0001f});
+  const RaycastParameters view{from_before, camera, 0.4f, 1.1f, 0.075f, 0.03f, 0.8f};
+  RaycastParameters farther = view;
+  farther.far_m = 1.9f;
+  Image<Float3> points(size, {1, 1, 1}), towards_light(size, {0, 0, -1});
+  points(14, 6) = {};
+  towards_light(14, 6) = {-2, 0, 0};
+  const auto vertices = testing::uploaded(*backend, points);
+  const auto normals = testing::uploaded(*backend, towards_light);
+  const SeenSurface seen{&vertices, &normals, view};
+  auto picture = backend->make_image<Rgba8>(size);
+  const auto drawn = [&](const RaycastParameters& as, const SeenSurface* from) {
+    backend->render_volume(picture, volume, as, {{1, 1, 0}, 0}, from);
+    return testing::downloaded(*backend, picture);
+  };
+  Image<Rgba8> expected(size, {255, 255, 255, 255});
+  expected(14, 6) = {0, 0, 0, 255};
+  EXPECT_EQ(drawn(view, &seen), expected);
+  expected(14, 6) = drawn(farther, nullptr)(14, 6);
+  EXPECT_GT(expected(14, 6).r, 0);
+  EXPECT_EQ(drawn(farther, &seen), expected);
+}
+
 TEST_F(Opencl, FindsDevicesByIndexAndByAPartOfTheirText) {
   const std::vector<std::string> devices = opencl_devices();
   ASSERT_FALSE(devices.empty());

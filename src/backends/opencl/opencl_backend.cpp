@@ -51,10 +51,11 @@ Size tiles_of(Size size, int tile) {
 }
 
 /// Bricks are never addressed beyond 32 bits (brick_map.cpp).
-const char* map_macro(const Volume& volume) {
-  if (volume.map == MapKind::bricks) return "-DBRICKS=1 -DWIDE=0";
-  const bool wide = voxel_count(volume.resolution) > std::numeric_limits<std::int32_t>::max();
-  return wide ? "-DBRICKS=0 -DWIDE=1" : "-DBRICKS=0 -DWIDE=0";
+std::string raycast_macros(const Volume& volume, bool only_misses) {
+  const bool bricks = volume.map == MapKind::bricks;
+  const bool wide =
+      !bricks && voxel_count(volume.resolution) > std::numeric_limits<std::int32_t>::max();
+  return fmt::format("-DBRICKS={:d} -DWIDE={:d} -DONLY_MISSES={:d}", bricks, wide, only_misses);
 }
 
 Reduction reduction_of(const float (&total)[sum_columns]) {
@@ -94,7 +95,9 @@ Queue& OpenclBackend::queue() {
 }
 
 std::unique_ptr<Storage> OpenclBackend::allocate(std::size_t bytes) {
-  return std::make_unique<DeviceBuffer>(queue_.allocate(bytes));
+  constexpr std::size_t slack =
+      sizeof(float);  // gather3 (kernels/lanes.cl) reads past the last pixel
+  return std::make_unique<DeviceBuffer>(queue_.allocate(bytes + slack));
 }
 
 void OpenclBackend::upload(Storage& destination, const void* source, std::size_t bytes) {
@@ -107,7 +110,7 @@ void OpenclBackend::download(void* destination, const Storage& source, std::size
 
 std::unique_ptr<Storage> OpenclBackend::allocate_volume(MapKind map, Int3 resolution, Float3) {
   if (map == MapKind::bricks) return std::make_unique<BrickMap>(queue_, resolution);
-  return allocate(voxel_count(resolution) * sizeof(Voxel));
+  return std::make_unique<DeviceBuffer>(queue_.allocate(voxel_count(resolution) * sizeof(Voxel)));
 }
 
 void OpenclBackend::read_volume(std::vector<Voxel>& destination, const Volume& source) {
@@ -325,8 +328,9 @@ int OpenclBackend::find_start_depths(const BrickMap& map, const Volume& volume, 
 }
 
 void OpenclBackend::march(const cl::Buffer& vertices, const cl::Buffer& normals, Size size,
-                          const Volume& volume, const RaycastParameters& parameters) {
-  DeviceKernel& kernel = programs_.get("raycast", map_macro(volume));
+                          const Volume& volume, const RaycastParameters& parameters,
+                          bool only_misses) {
+  DeviceKernel& kernel = programs_.get("raycast", raycast_macros(volume, only_misses));
   const int packet_width = kernel.layout.lanes == 1 ? 1 : 4;
   const int packet_height = kernel.layout.lanes / packet_width;
   const auto packets = static_cast<std::size_t>((size.width + packet_width - 1) / packet_width) *
@@ -356,10 +360,29 @@ void OpenclBackend::do_render_volume(DeviceImage<Rgba8>& image, const Volume& vo
   begin(Kernel::render_volume);
   const std::size_t bytes = image.size.count() * sizeof(Float3);
   march(scratch(seen_vertices_, bytes), scratch(seen_normals_, bytes), image.size, volume, view);
+  launch_shading(image, seen_vertices_, seen_normals_, shading);
+}
+
+void OpenclBackend::do_render_seen(DeviceImage<Rgba8>& image, const Volume& volume,
+                                   const RaycastParameters& view, const ShadeParameters& shading,
+                                   const SeenSurface& seen) {
+  begin(Kernel::render_volume);
+  const cl::Buffer& vertices = memory(*seen.vertices);
+  const cl::Buffer& normals = memory(*seen.normals);
+  if (seen.view.far_m == view.far_m) return launch_shading(image, vertices, normals, shading);
+  // A ray that met a surface meets the same one when it may go farther.
+  const std::size_t bytes = image.size.count() * sizeof(Float3);
+  queue_.copy(scratch(seen_vertices_, bytes), vertices, bytes);
+  queue_.copy(scratch(seen_normals_, bytes), normals, bytes);
+  march(seen_vertices_, seen_normals_, image.size, volume, view, /*only_misses=*/true);
+  launch_shading(image, seen_vertices_, seen_normals_, shading);
+}
+
+void OpenclBackend::launch_shading(DeviceImage<Rgba8>& image, const cl::Buffer& vertices,
+                                   const cl::Buffer& normals, const ShadeParameters& shading) {
   DeviceKernel& kernel = programs_.get("render_volume");
   const int count = pixel_count(image.size);
-  queue_.launch(kernel, kernel.packets(count), memory(image), seen_vertices_, seen_normals_, count,
-                shading);
+  queue_.launch(kernel, kernel.packets(count), memory(image), vertices, normals, count, shading);
 }
 
 std::unique_ptr<Backend> make_opencl_backend(int device, const OpenclParameters& parameters) {

@@ -71,6 +71,9 @@ class OpenclBackend final : public Backend {
   void do_render_track(DeviceImage<Rgba8>& image, const DeviceImage<TrackData>& rows) override;
   void do_render_volume(DeviceImage<Rgba8>& image, const Volume& volume,
                         const RaycastParameters& view, const ShadeParameters& shading) override;
+  void do_render_seen(DeviceImage<Rgba8>& image, const Volume& volume,
+                      const RaycastParameters& view, const ShadeParameters& shading,
+                      const SeenSurface& seen) override;
 
  private:
   /// The queue, which measures transfers from now on if anybody wants to know.
@@ -78,9 +81,13 @@ class OpenclBackend final : public Backend {
   void begin(Kernel kernel) { queue().begin(kernel); }
   void integrate_bricks(BrickMap& map, const Volume& volume, const DeviceImage<float>& depth_m,
                         const IntegrateParameters& parameters);
-  /// Launches raycast into two buffers of three floats a pixel.
+  /// Launches raycast into two buffers of three floats a pixel, for all or where there is no
+  /// surface in them yet.
   void march(const cl::Buffer& vertices, const cl::Buffer& normals, Size size, const Volume& volume,
-             const RaycastParameters& parameters);
+             const RaycastParameters& parameters, bool only_misses = false);
+  /// Launches render_volume on such buffers.
+  void launch_shading(DeviceImage<Rgba8>& image, const cl::Buffer& vertices,
+                      const cl::Buffer& normals, const ShadeParameters& shading);
   /// Launches start_depths; the edge of the tiles.
   int find_start_depths(const BrickMap& map, const Volume& volume, Size size,
                         const RaycastParameters& view);

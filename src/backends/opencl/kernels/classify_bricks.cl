@@ -7,7 +7,7 @@
 #define FREE 1    // every voxel is measured as free space, a truncated distance of 1
 #define VARIED 2  // every voxel has to be looked at
 
-inline int change_of(float8 x, float8 y, float8 z, global const float2* ranges, Size tiles,
+INLINE int change_of(float8 x, float8 y, float8 z, global const float2* ranges, Size tiles,
                      Size size, IntegrateParameters p, float tolerance_m) {
   const float near_m = least_of(z), far_m = greatest_of(z);
   if (far_m < p.min_depth_m - tolerance_m) return NONE;
@@ -37,7 +37,7 @@ inline int change_of(float8 x, float8 y, float8 z, global const float2* ranges, 
   return VARIED;
 }
 
-inline float dot1(Float3 row, float x, float y, float z) {
+INLINE float dot1(Float3 row, float x, float y, float z) {
   return row.x * x + row.y * y + row.z * z;
 }
 

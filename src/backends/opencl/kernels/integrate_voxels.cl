@@ -3,12 +3,12 @@
 
 // slambench::integrate_voxel: what distance and weight of the voxels with these centres (camera
 // frame) become.
-inline void integrate_lanes(Vec3 center, global const float* depth_m, Size size,
+INLINE void integrate_lanes(Vec3 center, global const float* depth_m, Size size,
                             IntegrateParameters p, Ints* tsdf, Ints* weight) {
   const Floats one = (Floats)(1.0f);
   Ints x, y;
   const Ints inside = project(center, p.camera, size, p.min_depth_m, &x, &y);
-  if (!ANY(inside)) return;
+  if (!any_lane(inside)) return;
   const Floats depth = gather(depth_m, y * size.width + x);
   const Floats slope_x = center.x / center.z, slope_y = center.y / center.z;
   const Floats distance =
@@ -24,4 +24,4 @@ inline void integrate_lanes(Vec3 center, global const float* depth_m, Size size,
   *weight = measured ? TO_INTS(fmin(more, (Floats)(p.max_weight))) : *weight;
 }
 
-inline Floats center_axis(Ints i, float voxel_m) { return (TO_FLOATS(i) + 0.5f) * voxel_m; }
+INLINE Floats center_axis(Ints i, float voxel_m) { return (TO_FLOATS(i) + 0.5f) * voxel_m; }

@@ -3,7 +3,7 @@
 
 // slambench::raycast_pixel: LANES rays march in lockstep.
 
-inline void clip_axis(float origin, Floats direction, float size, Floats* near_t, Floats* far_t) {
+INLINE void clip_axis(float origin, Floats direction, float size, Floats* near_t, Floats* far_t) {
   const Floats a = (0.0f - origin) / direction, b = (size - origin) / direction;
   const Ints along = direction == 0.0f;
   const Floats nearer = fmax(*near_t, fmin(a, b)), farther = fmin(*far_t, fmax(a, b));
@@ -14,7 +14,7 @@ inline void clip_axis(float origin, Floats direction, float size, Floats* near_t
 
 // The lanes of `active` that meet a surface; their `hit` is set. No sample nearer than start_m is
 // other than +1: the march adds up the same depths without them.
-inline Ints find_surface(const Map* map, Float3 origin, Vec3 direction, RaycastParameters p,
+INLINE Ints find_surface(const Map* map, Float3 origin, Vec3 direction, RaycastParameters p,
                          float start_m, Ints active, Vec3* hit) {
   Floats t = (Floats)(p.near_m), far_t = (Floats)(p.far_m);
   clip_axis(origin.x, direction.x, map->size_m.x, &t, &far_t);
@@ -28,7 +28,7 @@ inline Ints find_surface(const Map* map, Float3 origin, Vec3 direction, RaycastP
   Ints hits = (Ints)(0);
   int first = 1, skipped = 0;
 #if BRICKS
-  while (ANY(active) && ALL(!active | (t + step < start_m))) {
+  while (any_lane(active) && all_lanes(!active | (t + step < start_m))) {
     first = 0;
     skipped = 1;
     previous_t = t;
@@ -36,11 +36,11 @@ inline Ints find_surface(const Map* map, Float3 origin, Vec3 direction, RaycastP
     active = active & (t < far_t);
   }
 #endif
-  while (ANY(active)) {
+  while (any_lane(active)) {
     const Cell cell = cell_of(map, add(start, mul(direction, t)));
 #if BRICKS
     // In the band there is nothing to skip.
-    if (!ANY(active & (previous < 0.99f)) && !ANY(active & (occupied(map, cell) != 0))) {
+    if (!any_lane(active & (previous < 0.99f)) && !any_lane(active & (occupied(map, cell) != 0))) {
       // Every sample here is +1: the march goes on as if each had been taken.
       first = 0;
       skipped = 1;
@@ -57,7 +57,7 @@ inline Ints find_surface(const Map* map, Float3 origin, Vec3 direction, RaycastP
       first = 0;
     }
     const Ints crossing = active & (value < 0.0f);
-    if (ANY(crossing)) {
+    if (any_lane(crossing)) {
       if (skipped) {
         previous = interpolate(map, cell_of(map, add(start, mul(direction, previous_t))));
       }
@@ -76,6 +76,7 @@ inline Ints find_surface(const Map* map, Float3 origin, Vec3 direction, RaycastP
   return hits;
 }
 
+// ONLY_MISSES: leaves pixels alone whose normal is valid already.
 KERNEL raycast(global float* vertices, global float* normals, Size size, RaycastParameters p,
                Int3 n, Float3 size_m, global const short* values, global const int* planes,
                Int3 bricks, global const uchar* occupied_bricks, global const int* start_depths,
@@ -87,7 +88,12 @@ KERNEL raycast(global float* vertices, global float* normals, Size size, Raycast
   FOR_PACKETS(packet, across * down) {
     const int x0 = packet % across * PACKET_WIDTH, y0 = packet / across * PACKET_HEIGHT;
     const Ints x = x0 + COLUMN_OF_LANE, y = y0 + ROW_OF_LANE;
-    const Ints inside = (x < size.width) & (y < size.height);
+    Ints wanted = (x < size.width) & (y < size.height);
+#if ONLY_MISSES
+    const Ints pixel = wanted ? 3 * (y * size.width + x) : (Ints)(0);
+    wanted = wanted & (gather(normals, pixel) == INVALID_NORMAL);
+    if (!any_lane(wanted)) continue;
+#endif
     const Vec3 direction = rotate3(p.T_volume_camera, pixel_ray(p.camera, x, y));
     float start_m = 0.0f;
 #if BRICKS
@@ -96,26 +102,17 @@ KERNEL raycast(global float* vertices, global float* normals, Size size, Raycast
 #endif
     Vec3 hit;
     const Ints hits =
-        find_surface(&map, p.T_volume_camera.translation, direction, p, start_m, inside, &hit);
+        find_surface(&map, p.T_volume_camera.translation, direction, p, start_m, wanted, &hit);
     Vec3 vertex = vec3(zero, zero, zero), normal = vec3((Floats)(INVALID_NORMAL), zero, zero);
-    if (ANY(hits)) {
+    if (any_lane(hits)) {
       vertex = select3(hits, hit, vertex);
       const Vec3 slope = gradient(&map, vertex);
       const Floats norm = length3(slope);
       const Ints sloped = hits & (norm > 0.0f);
       normal = select3(sloped, mul(slope, 1.0f / norm), normal);
     }
-    const Ints pixel = 3 * (y * size.width + x);
-#define TO(lane, i)                        \
-  if (inside lane) {                       \
-    vertices[pixel lane] = vertex.x lane;  \
-    vertices[pixel lane + 1] = vertex.y lane; \
-    vertices[pixel lane + 2] = vertex.z lane; \
-    normals[pixel lane] = normal.x lane;   \
-    normals[pixel lane + 1] = normal.y lane; \
-    normals[pixel lane + 2] = normal.z lane; \
-  }
-    EVERY(TO)
-#undef TO
+    const int first = 3 * (y0 * size.width + x0);
+    store3_packet(vertex, wanted, vertices + first, size.width);
+    store3_packet(normal, wanted, normals + first, size.width);
   }
 }

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 
 // The sums of the rows that are OK, whatever the others hold.
-inline TrackLanes load_rows(global const float* rows, int count) {
+INLINE TrackLanes load_rows(global const float* rows, int count) {
   TrackLanes row;
 #define WORD(lane, i) (i < count ? p[i * TRACK_WORDS] : 0.0f)
   global const float* p = rows;

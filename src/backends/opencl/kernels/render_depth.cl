@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: The SLAMBench authors
 
-inline uchar4 depth_color(float depth_m, float near_m, float far_m) {
+INLINE uchar4 depth_color(float depth_m, float near_m, float far_m) {
   if (!(depth_m >= near_m)) return (uchar4)(255);
   if (depth_m > far_m) return (uchar4)(0, 0, 0, 255);
   const float hue = (depth_m - near_m) / (far_m - near_m) * 4.0f;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: The SLAMBench authors
 
-inline uchar4 track_color(int outcome) {
+INLINE uchar4 track_color(int outcome) {
   switch (outcome) {
     case OK:
       return (uchar4)(128, 128, 128, 255);

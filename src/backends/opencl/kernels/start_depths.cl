@@ -17,13 +17,13 @@
 #define MARGIN 1.01f
 
 // The eight corners along one axis of the box around a brick, in the camera's axes.
-inline float8 corners_along(int brick, int n, float voxel_m, float8 upper) {
+INLINE float8 corners_along(int brick, int n, float voxel_m, float8 upper) {
   const float low = (brick * EDGE - MARGIN + 0.5f) * voxel_m;
   const float high = (min(n, brick * EDGE + EDGE) + MARGIN - 0.5f) * voxel_m;
   return low + upper * (high - low);
 }
 
-inline void mark(local int* tiles, Size count, int tile, float8 x, float8 y, float8 z, Size size,
+INLINE void mark(local int* tiles, Size count, int tile, float8 x, float8 y, float8 z, Size size,
                  RaycastParameters view) {
   const float least = least_of(z);
   const float8 uz = view.camera.fx * x + view.camera.cx * z;

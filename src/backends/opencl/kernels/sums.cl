@@ -19,7 +19,7 @@ typedef struct {
   Vec3 normal, moment;
 } TrackLanes;
 
-inline Sums no_sums(void) {
+INLINE Sums no_sums(void) {
   Sums s;
   s.squared_error = (Floats)(0.0f);
   for (int i = 0; i < 6; ++i) s.jt_error[i] = (Floats)(0.0f);
@@ -29,13 +29,15 @@ inline Sums no_sums(void) {
 }
 
 // Adds a packet of which `count` pixels exist.
-inline void accumulate(TrackLanes row, int count, Sums* s) {
+INLINE void accumulate(TrackLanes row, int count, Sums* s) {
   const Floats j[6] = {row.normal.x, row.normal.y, row.normal.z,
                        row.moment.x, row.moment.y, row.moment.z};
   s->squared_error += row.error * row.error;
   int entry = 0;
+  UNROLL
   for (int a = 0; a < 6; ++a) {
     s->jt_error[a] += row.error * j[a];
+    UNROLL
     for (int b = a; b < 6; ++b) s->jt_j[entry++] += j[a] * j[b];
   }
   const Ints one = (Ints)(1), none = (Ints)(0);
@@ -50,7 +52,7 @@ inline void accumulate(TrackLanes row, int count, Sums* s) {
 }
 
 // Sums over the lanes, then over the work-items of the group (GROUP is a power of two).
-inline void store_group_sums(const Sums* s, local float* rows, global float* partial) {
+INLINE void store_group_sums(const Sums* s, local float* rows, global float* partial) {
   local float* row = rows + get_local_id(0) * COLUMNS;
   row[0] = SUM_OF_LANES(s->squared_error);
   for (int i = 0; i < 6; ++i) row[1 + i] = SUM_OF_LANES(s->jt_error[i]);

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 
 // slambench::track_point of a packet.
-inline TrackLanes track_lanes(Vec3 vertex, Vec3 normal, global const float* model_vertices,
+INLINE TrackLanes track_lanes(Vec3 vertex, Vec3 normal, global const float* model_vertices,
                               global const float* model_normals, Size model_size,
                               TrackParameters p) {
   const Floats zero = (Floats)(0.0f);
@@ -11,11 +11,9 @@ inline TrackLanes track_lanes(Vec3 vertex, Vec3 normal, global const float* mode
   Ints x, y;
   const Ints inside =
       project(apply(p.T_model_volume, point), p.model_camera, model_size, 1e-6f, &x, &y);
-  const Ints pixel = 3 * (y * model_size.width + x);
-  const Vec3 model_vertex = vec3(gather(model_vertices, pixel), gather(model_vertices, pixel + 1),
-                                 gather(model_vertices, pixel + 2));
-  const Vec3 model_normal = vec3(gather(model_normals, pixel), gather(model_normals, pixel + 1),
-                                 gather(model_normals, pixel + 2));
+  const Ints pixel = y * model_size.width + x;
+  const Vec3 model_vertex = gather3(model_vertices, pixel);
+  const Vec3 model_normal = gather3(model_normals, pixel);
   const Vec3 difference = sub(model_vertex, point);
   const Ints modelled = model_normal.x != INVALID_NORMAL;
   const Ints near = length3(difference) <= p.distance_threshold_m;

@@ -6,6 +6,12 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
+// Every function becomes part of its kernel: a compiler for processors may else call it, with all
+// vectors and parameters through memory.
+#define INLINE inline __attribute__((always_inline))
+// Before a loop over a few vectors in an array, which are then kept in registers.
+#define UNROLL _Pragma("unroll")
+
 typedef struct { int width, height; } Size;
 typedef struct { int x, y, z; } Int3;
 typedef struct { float x, y, z; } Float3;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 
 // The vertices of a row from x on, which may be one pixel off either end: clamped.
-inline Vec3 neighbours(global const float* row, int x, int width) {
+INLINE Vec3 neighbours(global const float* row, int x, int width) {
   if (x >= 0 && x + LANES <= width) return load3(row + 3 * x, LANES);
   Vec3 v;
 #define AT(lane, i) row[3 * clamp(x + i, 0, width - 1)]

@@ -7,7 +7,7 @@
 #define BRICK_VOXELS 512  // x fastest
 
 // Where the brick of this index lies, in bricks.
-inline Int3 brick_position(int brick, Int3 bricks) {
+INLINE Int3 brick_position(int brick, Int3 bricks) {
   Int3 at;
   at.x = brick % bricks.x;
   at.y = brick / bricks.x % bricks.y;
@@ -33,14 +33,16 @@ typedef struct {
   Vec3 fraction;
 } Cell;
 
-inline Ints cell_axis(Floats p, int count, float size_m, Floats* fraction) {
+INLINE Ints cell_axis(Floats p, int count, float size_m, Floats* fraction) {
   const Floats position = p * (float)(count) / size_m - 0.5f;
-  const Floats base = floor(position);
-  *fraction = position - base;
-  return TO_INTS(base);
+  // As the floor, which drivers for processors write out for all floats there are.
+  const Ints truncated = TO_INTS(position);
+  const Ints base = TO_FLOATS(truncated) > position ? truncated - 1 : truncated;
+  *fraction = position - TO_FLOATS(base);
+  return base;
 }
 
-inline Cell cell_of(const Map* map, Vec3 p) {
+INLINE Cell cell_of(const Map* map, Vec3 p) {
   Cell cell;
   cell.x = cell_axis(p.x, map->n.x, map->size_m.x, &cell.fraction.x);
   cell.y = cell_axis(p.y, map->n.y, map->size_m.y, &cell.fraction.y);
@@ -48,13 +50,13 @@ inline Cell cell_of(const Map* map, Vec3 p) {
   return cell;
 }
 
-inline Ints clamp_index(Ints i, int count) { return clamp(i, (Ints)(0), (Ints)(count - 1)); }
+INLINE Ints clamp_index(Ints i, int count) { return clamp(i, (Ints)(0), (Ints)(count - 1)); }
 
-inline Floats lerp(Floats a, Floats b, Floats t) { return a * (1.0f - t) + b * t; }
+INLINE Floats lerp(Floats a, Floats b, Floats t) { return a * (1.0f - t) + b * t; }
 
 // Pairs of neighbouring 16-bit values, the first in the lower half.
-inline Ints low_half(Ints pair) { return (pair << 16) >> 16; }
-inline Ints gather_pairs(global const short* values, Ints index) {
+INLINE Ints low_half(Ints pair) { return (pair << 16) >> 16; }
+INLINE Ints gather_pairs(global const short* values, Ints index) {
 #define AT(lane, i) as_int(vload2(0, values + index lane))
   return (Ints)(EACH(AT));
 #undef AT
@@ -62,31 +64,32 @@ inline Ints gather_pairs(global const short* values, Ints index) {
 
 #if BRICKS
 
-inline Ints brick_index(const Map* map, Ints bx, Ints by, Ints bz) {
+INLINE Ints brick_index(const Map* map, Ints bx, Ints by, Ints bz) {
   return (bz * map->bricks.y + by) * map->bricks.x + bx;
 }
 
-inline Ints occupied(const Map* map, Cell cell) {
+INLINE Ints occupied(const Map* map, Cell cell) {
   const Ints brick =
       brick_index(map, clamp_index(cell.x, map->n.x) >> 3, clamp_index(cell.y, map->n.y) >> 3,
                   clamp_index(cell.z, map->n.z) >> 3);
+  if (all_lanes(brick == FIRST(brick))) return (Ints)(map->occupied[FIRST(brick)]);
 #define AT(lane, i) map->occupied[brick lane]
   return (Ints)(EACH(AT));
 #undef AT
 }
 
 // The plane of a brick a lane; neighbouring rays mostly are in the same brick.
-inline Ints plane_of(const Map* map, Ints bx, Ints by, Ints bz) {
+INLINE Ints plane_of(const Map* map, Ints bx, Ints by, Ints bz) {
   const Ints brick = brick_index(map, bx, by, bz);
-  if (ALL(brick == FIRST(brick))) return (Ints)(map->planes[FIRST(brick)]);
+  if (all_lanes(brick == FIRST(brick))) return (Ints)(map->planes[FIRST(brick)]);
   return gather_ints(map->planes, brick);
 }
 
-inline Ints row_in(Ints y, Ints z) { return (z & 7) << 6 | (y & 7) << 3; }
-inline Ints value_at(Ints plane, Ints x, Ints row) { return plane << 9 | row | (x & 7); }
+INLINE Ints row_in(Ints y, Ints z) { return (z & 7) << 6 | (y & 7) << 3; }
+INLINE Ints value_at(Ints plane, Ints x, Ints row) { return plane << 9 | row | (x & 7); }
 
 // The planes of the bricks at one x around a cell, [z][y]; equal ones are read once.
-inline void planes_around(const Map* map, Ints bx, const Ints* by, const Ints* bz, int across_y,
+INLINE void planes_around(const Map* map, Ints bx, const Ints* by, const Ints* bz, int across_y,
                           int across_z, Ints (*plane)[2]) {
   plane[0][0] = plane_of(map, bx, by[0], bz[0]);
   plane[0][1] = across_y ? plane_of(map, bx, by[1], bz[0]) : plane[0][0];
@@ -95,19 +98,21 @@ inline void planes_around(const Map* map, Ints bx, const Ints* by, const Ints* b
 }
 
 // The stored distances at the corners between positions x[0..1], y[0..1], z[0..1]: [z][y][x].
-inline void corners(const Map* map, const Ints* x, const Ints* y, const Ints* z,
+INLINE void corners(const Map* map, const Ints* x, const Ints* y, const Ints* z,
                     Floats (*value)[2][2]) {
   const Ints bx[2] = {x[0] >> 3, x[1] >> 3};
   const Ints by[2] = {y[0] >> 3, y[1] >> 3};
   const Ints bz[2] = {z[0] >> 3, z[1] >> 3};
-  const int across_x = ANY(bx[0] != bx[1]);
-  const int across_y = ANY(by[0] != by[1]);
-  const int across_z = ANY(bz[0] != bz[1]);
+  const int across_x = any_lane(bx[0] != bx[1]);
+  const int across_y = any_lane(by[0] != by[1]);
+  const int across_z = any_lane(bz[0] != bz[1]);
   const Ints apart = x[0] != x[1];  // else the upper x is clamped to the lower
   Ints plane[2][2], other[2][2];
   planes_around(map, bx[0], by, bz, across_y, across_z, plane);
   if (across_x) planes_around(map, bx[1], by, bz, across_y, across_z, other);
+  UNROLL
   for (int k = 0; k < 2; ++k) {
+    UNROLL
     for (int j = 0; j < 2; ++j) {
       const Ints row = row_in(y[j], z[k]);
       const Ints pair = gather_pairs(map->values, value_at(plane[k][j], x[0], row));
@@ -126,17 +131,19 @@ inline void corners(const Map* map, const Ints* x, const Ints* y, const Ints* z,
 
 // The distances at voxels of four neighbouring positions along each axis that central differences
 // at the inner 2^3 read: [z][y][x]. They lie in at most two bricks along each axis.
-inline void around(const Map* map, const Ints* x, const Ints* y, const Ints* z,
+INLINE void around(const Map* map, const Ints* x, const Ints* y, const Ints* z,
                    Floats (*value)[4][4]) {
   const Ints bx[2] = {x[0] >> 3, x[3] >> 3};
   const Ints by[2] = {y[0] >> 3, y[3] >> 3};
   const Ints bz[2] = {z[0] >> 3, z[3] >> 3};
-  const int across_y = ANY(by[0] != by[1]), across_z = ANY(bz[0] != bz[1]);
+  const int across_y = any_lane(by[0] != by[1]), across_z = any_lane(bz[0] != bz[1]);
   Ints plane[2][2], other[2][2];
   planes_around(map, bx[0], by, bz, across_y, across_z, plane);
   planes_around(map, bx[1], by, bz, across_y, across_z, other);
+  UNROLL
   for (int k = 0; k < 4; ++k) {
     const Ints in_lower_z = (z[k] >> 3) == bz[0];
+    UNROLL
     for (int j = 0; j < 4; ++j) {
       const int outer = (k == 0 || k == 3) + (j == 0 || j == 3);
       if (outer == 2) continue;
@@ -146,12 +153,11 @@ inline void around(const Map* map, const Ints* x, const Ints* y, const Ints* z,
       const Ints upper = in_lower_z ? (in_lower_y ? other[0][0] : other[0][1])
                                     : (in_lower_y ? other[1][0] : other[1][1]);
       const Ints row = row_in(y[j], z[k]);
+      UNROLL
       for (int i = outer; i < 4 - outer; ++i) {
         const Ints here = (x[i] >> 3) == bx[0];
         const Ints index = value_at(here ? lower : upper, x[i], row);
-#define AT(lane, i) map->values[index lane]
-        value[k][j][i] = TO_FLOATS((Ints)(EACH(AT)));
-#undef AT
+        value[k][j][i] = TO_FLOATS(low_half(gather_pairs(map->values, index)));
       }
     }
   }
@@ -160,7 +166,7 @@ inline void around(const Map* map, const Ints* x, const Ints* y, const Ints* z,
 #else
 
 // WIDE: there are more voxels than a lane can count.
-inline Floats tsdf_at(const Map* map, Ints x, Ints y, Ints z) {
+INLINE Floats tsdf_at(const Map* map, Ints x, Ints y, Ints z) {
   global const int* pairs = (global const int*)map->values;
   const Ints row = z * map->n.y + y;
 #if WIDE
@@ -173,21 +179,27 @@ inline Floats tsdf_at(const Map* map, Ints x, Ints y, Ints z) {
   return TO_FLOATS(low_half(pair));
 }
 
-inline void corners(const Map* map, const Ints* x, const Ints* y, const Ints* z,
+INLINE void corners(const Map* map, const Ints* x, const Ints* y, const Ints* z,
                     Floats (*value)[2][2]) {
+  UNROLL
   for (int k = 0; k < 2; ++k) {
+    UNROLL
     for (int j = 0; j < 2; ++j) {
+      UNROLL
       for (int i = 0; i < 2; ++i) value[k][j][i] = tsdf_at(map, x[i], y[j], z[k]);
     }
   }
 }
 
-inline void around(const Map* map, const Ints* x, const Ints* y, const Ints* z,
+INLINE void around(const Map* map, const Ints* x, const Ints* y, const Ints* z,
                    Floats (*value)[4][4]) {
+  UNROLL
   for (int k = 0; k < 4; ++k) {
+    UNROLL
     for (int j = 0; j < 4; ++j) {
       const int outer = (k == 0 || k == 3) + (j == 0 || j == 3);
       if (outer == 2) continue;
+      UNROLL
       for (int i = outer; i < 4 - outer; ++i) value[k][j][i] = tsdf_at(map, x[i], y[j], z[k]);
     }
   }
@@ -195,7 +207,7 @@ inline void around(const Map* map, const Ints* x, const Ints* y, const Ints* z,
 
 #endif
 
-inline Floats interpolate(const Map* map, Cell cell) {
+INLINE Floats interpolate(const Map* map, Cell cell) {
   const Ints x[2] = {clamp_index(cell.x, map->n.x), clamp_index(cell.x + 1, map->n.x)};
   const Ints y[2] = {clamp_index(cell.y, map->n.y), clamp_index(cell.y + 1, map->n.y)};
   const Ints z[2] = {clamp_index(cell.z, map->n.z), clamp_index(cell.z + 1, map->n.z)};
@@ -207,9 +219,10 @@ inline Floats interpolate(const Map* map, Cell cell) {
   return lerp(front, back, f.z) * (1.0f / TSDF_SCALE);
 }
 
-inline Vec3 gradient(const Map* map, Vec3 p) {
+INLINE Vec3 gradient(const Map* map, Vec3 p) {
   const Cell cell = cell_of(map, p);
   Ints x[4], y[4], z[4];
+  UNROLL
   for (int i = 0; i < 4; ++i) {
     x[i] = clamp_index(cell.x + (i - 1), map->n.x);
     y[i] = clamp_index(cell.y + (i - 1), map->n.y);
@@ -219,6 +232,7 @@ inline Vec3 gradient(const Map* map, Vec3 p) {
   around(map, x, y, z, v);
   const Vec3 f = cell.fraction;
   Vec3 sum = vec3((Floats)(0.0f), (Floats)(0.0f), (Floats)(0.0f));
+  UNROLL
   for (int corner = 0; corner < 8; ++corner) {
     const int i = (corner & 1) + 1, j = ((corner >> 1) & 1) + 1, k = (corner >> 2) + 1;
     const Floats weight =
