@@ -9,23 +9,6 @@ INLINE Floats clamped_row(global const float* row, int x, int width) {
 #undef AT
 }
 
-// exp(x) for x <= 0 to a few units in the last place; 0 below -87, NaN for NaN: 2^n exp(r) with
-// n = round(x / ln 2) and the polynomial of degree 5 through exp at six Chebyshev nodes.
-INLINE Floats exp_nonpositive(Floats x) {
-  const Ints vanishes = x < -87.0f;
-  const Floats kept = vanishes ? (Floats)(0.0f) : x;
-  const Ints n = TO_INTS(kept * 1.44269504f - 0.5f);  // towards zero, which is up
-  const Floats whole = TO_FLOATS(n);
-  // ln 2 in two parts: the first has few bits, so that n times it is exact.
-  const Floats r = kept - whole * 0.693359375f + whole * 2.12194440e-4f;
-  Floats sum = 0.00836922042f * r + 0.0419180095f;
-  sum = sum * r + 0.166665047f;
-  sum = sum * r + 0.499988645f;
-  sum = sum * r + 1.0f;
-  sum = sum * r + 1.00000012f;
-  return vanishes ? (Floats)(0.0f) : sum * AS_FLOATS((n + 127) << 23);
-}
-
 KERNEL bilateral_filter(global float* filtered_m, global const float* depth_m, Size size,
                         global const float* gaussian, int radius, float inverse_two_sigma2) {
   const Floats zero = (Floats)(0.0f);
@@ -40,7 +23,7 @@ KERNEL bilateral_filter(global float* filtered_m, global const float* depth_m, S
         const Ints valid = neighbour > 0.0f;
         const Floats difference = neighbour - center;
         const Floats weight = gaussian[dx + radius] * gaussian[dy + radius] *
-                              exp_nonpositive(-difference * difference * inverse_two_sigma2);
+                              exp(-difference * difference * inverse_two_sigma2);
         sum += valid ? weight * neighbour : zero;
         weights += valid ? weight : zero;
       }

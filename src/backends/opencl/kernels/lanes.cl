@@ -17,7 +17,6 @@ typedef short Shorts;
 #define TO_INTS(v) convert_int(v)
 #define TO_SHORTS(v) convert_short(v)
 #define AS_INTS(v) as_int(v)
-#define AS_FLOATS(v) as_float(v)
 #define IOTA 0
 #define FIRST(v) (v)
 #define LOAD(p) (*(p))
@@ -36,7 +35,6 @@ typedef short8 Shorts;
 #define TO_INTS(v) convert_int8(v)
 #define TO_SHORTS(v) convert_short8(v)
 #define AS_INTS(v) as_int8(v)
-#define AS_FLOATS(v) as_float8(v)
 #define IOTA (int8)(0, 1, 2, 3, 4, 5, 6, 7)
 #define LOAD(p) vload8(0, p)
 #define STORE(v, p) vstore8(v, 0, p)
@@ -55,7 +53,6 @@ typedef short16 Shorts;
 #define TO_INTS(v) convert_int16(v)
 #define TO_SHORTS(v) convert_short16(v)
 #define AS_INTS(v) as_int16(v)
-#define AS_FLOATS(v) as_float16(v)
 #define IOTA (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
 #define LOAD(p) vload16(0, p)
 #define STORE(v, p) vstore16(v, 0, p)
