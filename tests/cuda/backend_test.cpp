@@ -251,8 +251,8 @@ struct Meeting {
                    &model_vertices,
                    &model_normals,
                    {10},
-                   {to_rigid3f(view_at(3)), to_rigid3f(view_at(3).inverse()), camera, 0.1f, 0.8f},
-                   view_at(3),
+                   {to_rigid3f(start()), to_rigid3f(view_at(3).inverse()), camera, 0.1f, 0.8f},
+                   start(),
                    1e-5,
                    true,
                    true};
@@ -267,6 +267,8 @@ struct Meeting {
     input.raycast = ray(view_at(9));
   }
 
+  /// Not where the model was seen from: a lost frame's raycast shows.
+  static Pose start() { return view_at(3) * Eigen::Translation3d(0.01, 0, 0); }
   static IntegrateParameters measurement(const Pose& pose) {
     return {to_rigid3f(pose.inverse()), camera, 0.1f, 6, 0.0001f};
   }
