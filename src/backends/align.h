@@ -19,4 +19,10 @@ using SolveMotion = std::function<Twist(const Reduction&)>;
 AlignResult iterate_align(const AlignInput& input, const MatchLevel& match,
                           const SolveMotion& solve);
 
+/// The shortest motion that minimises the sums' error; directions that the sums tell less of than
+/// the best known one by the condition do not move. Zero where the sums are not finite.
+Twist solve_motion(const Reduction& sums, double condition);
+/// The same but for rounding, in a fraction of the time where all directions are known.
+Twist solve_motion_quickly(const Reduction& sums, double condition);
+
 }  // namespace slambench

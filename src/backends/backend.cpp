@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #include "backends/backend.h"
 
-#include <Eigen/SVD>
 #include <stdexcept>
 
 #include "backends/align.h"
@@ -12,23 +11,10 @@
 namespace slambench {
 namespace {
 
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 Float3 to_float3(const Eigen::Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
-Matrix6 normal_matrix(const Reduction& reduction) {
-  Matrix6 m;
-  const double* next = reduction.jt_j;
-  for (int row = 0; row < 6; ++row) {
-    for (int column = row; column < 6; ++column) {
-      m(row, column) = *next;
-      m(column, row) = *next++;
-    }
-  }
-  return m;
 }
 
 bool same_ray(const Rigid3f& a, const Rigid3f& b) {
@@ -175,14 +161,7 @@ Twist Backend::solve(const Reduction& reduction, double condition) {
 }
 
 Twist Backend::do_solve(const Reduction& reduction, double condition) {
-  const Matrix6 jt_j = normal_matrix(reduction);
-  const Vector6 jt_error = Eigen::Map<const Vector6>(reduction.jt_error);
-  Twist twist;
-  if (!jt_j.allFinite() || !jt_error.allFinite()) return twist;
-  Eigen::JacobiSVD<Matrix6> svd(jt_j, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  svd.setThreshold(1 / condition);
-  Eigen::Map<Vector6>(twist.v) = svd.solve(jt_error);
-  return twist;
+  return solve_motion(reduction, condition);
 }
 
 void Backend::check_shapes(const AlignInput& input) {

@@ -34,24 +34,53 @@ HWY_INLINE Ints outcome_where(FloatMask mask, TrackOutcome yes, Ints no) {
   return hn::IfThenElse(hn::RebindMask(i32, mask), set_int(static_cast<int>(yes)), no);
 }
 
+#if HWY_TARGET != HWY_SCALAR
+/// A vector of blocks of 16 bytes: half of the points with the 0th, 4th, 8th... index.
+template <class D>
+HWY_INLINE hn::Vec<D> load_blocks(D d, const float* half, const std::int32_t* index) {
+  if constexpr (hn::MaxLanes(d) <= 4) {
+    return hn::LoadU(d, half + static_cast<std::ptrdiff_t>(8) * index[0]);
+  } else {
+    const hn::Half<D> part;
+    return hn::Combine(d, load_blocks(part, half, index + hn::MaxLanes(part)),
+                       load_blocks(part, half, index));
+  }
+}
+
+/// Four fields of the points, a vector each: `half` points to the first of them in the first point.
+HWY_INLINE void read_fields(const float* half, const std::int32_t* index, Floats (*field)[4]) {
+  const hn::RepartitionToWide<hn::RebindToUnsigned<FloatTag>> u64;
+  const auto wide = [&](Floats v) { return hn::BitCast(u64, v); };
+  const Floats a = load_blocks(f32, half, index), b = load_blocks(f32, half, index + 1);
+  const Floats c = load_blocks(f32, half, index + 2), d = load_blocks(f32, half, index + 3);
+  const auto ab = wide(hn::InterleaveLower(f32, a, b)), cd = wide(hn::InterleaveLower(f32, c, d));
+  (*field)[0] = hn::BitCast(f32, hn::InterleaveLower(u64, ab, cd));
+  (*field)[1] = hn::BitCast(f32, hn::InterleaveUpper(u64, ab, cd));
+  const auto ab2 = wide(hn::InterleaveUpper(f32, a, b)), cd2 = wide(hn::InterleaveUpper(f32, c, d));
+  (*field)[2] = hn::BitCast(f32, hn::InterleaveLower(u64, ab2, cd2));
+  (*field)[3] = hn::BitCast(f32, hn::InterleaveUpper(u64, ab2, cd2));
+}
+
+#endif
+
 /// The model's points and normals at a pixel a lane.
 HWY_INLINE void read_model(const TrackInput& in, Ints pixel, Vec3* vertex, Vec3* normal) {
-  if (in.model == nullptr) {
-    *vertex = gather(in.model_vertices, pixel);
-    *normal = gather(in.model_normals, pixel);
+#if HWY_TARGET != HWY_SCALAR
+  if (in.model != nullptr) {
+    alignas(64) std::int32_t index[virtual_lanes];
+    hn::Store(pixel, i32, index);
+    const auto* points = reinterpret_cast<const float*>(in.model);
+    Floats field[4];
+    read_fields(points, index, &field);
+    *vertex = {field[0], field[1], field[2]};
+    normal->x = field[3];
+    read_fields(points + 4, index, &field);
+    normal->y = field[0], normal->z = field[1];
     return;
   }
-  alignas(64) std::int32_t index[virtual_lanes];
-  alignas(64) float first[4 * virtual_lanes], second[4 * virtual_lanes];
-  hn::Store(pixel, i32, index);
-  for (int i = 0; i < lanes(); ++i) {
-    const auto* point = reinterpret_cast<const unsigned char*>(in.model + index[i]);
-    std::memcpy(first + static_cast<std::ptrdiff_t>(4) * i, point, 16);
-    std::memcpy(second + static_cast<std::ptrdiff_t>(4) * i, point + 16, 16);
-  }
-  Floats unused[2];
-  hn::LoadInterleaved4(f32, first, vertex->x, vertex->y, vertex->z, normal->x);
-  hn::LoadInterleaved4(f32, second, normal->y, normal->z, unused[0], unused[1]);
+#endif
+  *vertex = gather(in.model_vertices, pixel);
+  *normal = gather(in.model_normals, pixel);
 }
 
 /// slambench::track_point.
