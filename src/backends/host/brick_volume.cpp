@@ -10,6 +10,7 @@
 
 #include "backends/host/memory.h"
 #include "core/error.h"
+#include "kernels/volume_maths.h"
 
 namespace slambench {
 namespace {
@@ -19,6 +20,8 @@ constexpr std::size_t huge_page = std::size_t{2} << 20;
 constexpr std::size_t portion_bytes = std::size_t{16} << 20;
 /// Bytes past the last brick or plane that a 32-bit read of its last value touches.
 constexpr std::size_t slack = 4;
+/// Bytes of tables for a brick: its planes, its owner's, its level and those of its eight parts.
+constexpr std::size_t brick_bytes = 3 * sizeof(std::int32_t) + 1 + 2 * 8;
 
 std::size_t brick_count(Int3 bricks) {
   return static_cast<std::size_t>(bricks.x) * static_cast<std::size_t>(bricks.y) *
@@ -67,11 +70,13 @@ BrickVolume::BrickVolume(Int3 resolution)
       distances_(brick_count(bricks_) + 1, plane_values),
       weights_(brick_count(bricks_), voxels) {
   const std::size_t count = brick_count(bricks_);
-  require_memory(count * (3 * sizeof(std::int32_t) + 2));
+  require_memory(count * brick_bytes);
   distance_planes_.resize(count);
   weight_planes_.resize(count);
   levels_.resize(count);
-  sample_levels_.resize(count + slack);
+  part_levels_.resize(8 * count);
+  sample_levels_.resize(8 * count + slack);
+  stale_.resize(static_cast<std::size_t>(bricks_.y) * static_cast<std::size_t>(bricks_.z));
   owners_.resize(count + 1);
   clear();
 }
@@ -80,7 +85,9 @@ void BrickVolume::clear() {
   std::fill(distance_planes_.begin(), distance_planes_.end(), 0);
   std::fill(weight_planes_.begin(), weight_planes_.end(), -1 - Voxel{}.weight);
   std::fill(levels_.begin(), levels_.end(), std::uint8_t{free_level});
+  std::fill(part_levels_.begin(), part_levels_.end(), std::uint8_t{free_level});
   std::fill(sample_levels_.begin(), sample_levels_.end(), std::uint8_t{free_level});
+  std::fill(stale_.begin(), stale_.end(), std::uint8_t{0});
   distances_.clear();
   weights_.clear();
   distances_.reserve(1);
@@ -115,9 +122,7 @@ void BrickVolume::store(std::size_t brick, const std::int16_t* tsdf, const std::
   if (plane != 0) {
     std::int16_t* row = distances_.plane(plane);
     for (int i = 0; i < voxels; i += edge, row += row_values) std::copy_n(tsdf + i, edge, row);
-    std::int16_t least = tsdf[0];
-    for (int i = 1; i < voxels; ++i) least = std::min(least, tsdf[i]);
-    levels_[brick] = static_cast<std::uint8_t>(level_of(least));
+    levels_[brick] = store_levels(brick, tsdf);
     if (brick % static_cast<std::size_t>(bricks_.x) != 0) {
       const std::atomic_ref<std::int32_t> before(distance_planes_[brick - 1]);
       copy_first_column(tsdf, edge, before.load(std::memory_order_relaxed));
@@ -168,30 +173,72 @@ void BrickVolume::refresh() {
   refresh_sample_levels();
 }
 
-void BrickVolume::refresh_sample_levels() {
-  const auto width = static_cast<std::size_t>(bricks_.x);
-  const std::size_t slice = width * static_cast<std::size_t>(bricks_.y), count = levels_.size();
-  const auto lower = [](std::uint8_t* to, const std::uint8_t* from, std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i) to[i] = std::min(to[i], from[i]);
-  };
-  std::uint8_t* sample = sample_levels_.data();
-  std::copy(levels_.begin(), levels_.end(), sample);
-  for (std::size_t row = 0; row < count; row += width) {
-    lower(sample + row, levels_.data() + row + 1, width - 1);
-  }
-  // Rising rows and slices read what is above them before that is lowered itself.
-  for (std::size_t begin = 0; begin < count; begin += slice) {
-    for (std::size_t row = begin; row + width < begin + slice; row += width) {
-      lower(sample + row, sample + row + width, width);
+std::uint8_t BrickVolume::store_levels(std::size_t brick, const std::int16_t* tsdf) {
+  const Int3 first = voxel_at(brick, 0), count = parts();
+  bool changed = false;
+  std::uint8_t lowest = free_level;
+  for (int pz = 0; pz < 2; ++pz) {
+    for (int py = 0; py < 2; ++py) {
+      const std::int16_t* values = tsdf + (pz * edge + py) * part_edge * edge;
+      std::int16_t least[edge];  // of the columns along x
+      std::copy_n(values, edge, least);
+      for (int row = 1; row < part_edge * part_edge; ++row) {
+        const std::int16_t* next = values + (row / part_edge * edge + row % part_edge) * edge;
+        for (int x = 0; x < edge; ++x) least[x] = std::min(least[x], next[x]);
+      }
+      const int y = first.y / part_edge + py, z = first.z / part_edge + pz;
+      std::uint8_t* levels = part_levels_.data() + voxel_index(count, first.x / part_edge, y, z);
+      for (int px = 0; px < 2; ++px) {
+        const std::int16_t* half = least + px * part_edge;
+        const auto level =
+            static_cast<std::uint8_t>(level_of(*std::min_element(half, half + part_edge)));
+        changed |= levels[px] != level;
+        levels[px] = level;
+        lowest = std::min(lowest, level);
+      }
     }
   }
-  for (std::size_t begin = 0; begin + slice < count; begin += slice) {
-    lower(sample + begin, sample + begin + slice, slice);
+  if (changed) {  // others may store bricks of this row at the same time
+    const std::atomic_ref<std::uint8_t> stale(stale_[brick / static_cast<std::size_t>(bricks_.x)]);
+    stale.store(1, std::memory_order_relaxed);
   }
+  return lowest;
+}
+
+void BrickVolume::refresh_sample_levels() {
+  const Int3 count = parts();
+  const auto width = static_cast<std::size_t>(count.x);
+  const auto stale = [&](int by, int bz) {
+    return by < bricks_.y && bz < bricks_.z &&
+           stale_[static_cast<std::size_t>(bz) * static_cast<std::size_t>(bricks_.y) +
+                  static_cast<std::size_t>(by)] != 0;
+  };
+  const auto row = [&](int y, int z) {
+    const int last_y = std::min(y, count.y - 1), last_z = std::min(z, count.z - 1);
+    return part_levels_.data() + voxel_index(count, 0, last_y, last_z);
+  };
+  std::vector<std::uint8_t> four_rows(width + 1, std::uint8_t{free_level});
+  std::uint8_t* lowest = four_rows.data();
+  for (int z = 0; z < count.z; ++z) {
+    for (int y = 0; y < count.y; ++y) {
+      const int by = y / 2, bz = z / 2;
+      if (!stale(by, bz) && !stale(by + 1, bz) && !stale(by, bz + 1) && !stale(by + 1, bz + 1)) {
+        continue;
+      }
+      const std::uint8_t *a = row(y, z), *b = row(y + 1, z), *c = row(y, z + 1),
+                         *d = row(y + 1, z + 1);
+      for (std::size_t x = 0; x < width; ++x) {
+        lowest[x] = std::min(std::min(a[x], b[x]), std::min(c[x], d[x]));
+      }
+      std::uint8_t* sample = sample_levels_.data() + voxel_index(count, 0, y, z);
+      for (std::size_t x = 0; x < width; ++x) sample[x] = std::min(lowest[x], lowest[x + 1]);
+    }
+  }
+  std::fill(stale_.begin(), stale_.end(), std::uint8_t{0});
 }
 
 std::size_t BrickVolume::bytes() const {
-  return distances_.used_bytes() + weights_.used_bytes() + count() * (3 * sizeof(std::int32_t) + 2);
+  return distances_.used_bytes() + weights_.used_bytes() + count() * brick_bytes;
 }
 
 }  // namespace slambench

@@ -126,15 +126,20 @@ class BrickVolume final : public Storage {
   }
   /// The lowest level of the brick's own distances.
   std::uint8_t level(std::size_t brick) const { return levels_[brick]; }
-  /// A byte a brick: the lowest level that a sample whose lower corner lies in it can read. Three
-  /// bytes follow the last.
+  /// Bricks are cut into 2^3 parts.
+  static constexpr int part_edge = edge / 2;
+  Int3 parts() const { return {2 * bricks_.x, 2 * bricks_.y, 2 * bricks_.z}; }
+  /// A byte a part (x fastest): the lowest level that a sample whose lower corner lies in it can
+  /// read. Three bytes follow the last.
   const std::uint8_t* sample_levels() const { return sample_levels_.data(); }
 
   /// Memory in use.
   std::size_t bytes() const;
 
  private:
-  /// The level that samples read: the least of the brick's own and of those above it.
+  /// The lowest level of each of the brick's parts; the lowest of all.
+  std::uint8_t store_levels(std::size_t brick, const std::int16_t* tsdf);
+  /// The levels that samples read: the lowest of the part's own and of those above it.
   void refresh_sample_levels();
   void copy_first_column(const std::int16_t* tsdf, std::size_t stride, int plane_before);
 
@@ -142,7 +147,9 @@ class BrickVolume final : public Storage {
   std::vector<std::int32_t> distance_planes_;  ///< per brick
   std::vector<std::int32_t> weight_planes_;    ///< per brick; negative: -1 - the uniform weight
   PlanePool distances_, weights_;
-  std::vector<std::uint8_t> levels_, sample_levels_;
+  std::vector<std::uint8_t> levels_;                       ///< per brick
+  std::vector<std::uint8_t> part_levels_, sample_levels_;  ///< per part
+  std::vector<std::uint8_t> stale_;   ///< rows of bricks along x whose part levels have changed
   std::vector<std::int32_t> owners_;  ///< of the distance planes
   std::size_t seen_planes_ = 1;       ///< planes whose rows have been made complete
 };

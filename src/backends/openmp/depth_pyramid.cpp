@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: The SLAMBench authors
 #include <algorithm>
+#include <limits>
+#include <vector>
 
 #include "backends/openmp/integrate_kernels.h"
 
@@ -21,9 +23,37 @@ Size fewer(Size size, int factor) {
   return {(size.width + factor - 1) / factor, (size.height + factor - 1) / factor};
 }
 
+/// The finest level's rows [begin, end).
+void fill_rows(const float* depth_m, Size size, int begin, int end, Size tiles,
+               DepthPyramid::Range* ranges) {
+  constexpr int tile = DepthPyramid::tile;
+  // Of a row of tiles' columns of pixels: loops over these make whole vectors.
+  std::vector<float> columns(2 * static_cast<std::size_t>(size.width));
+  float *least = columns.data(), *greatest = least + size.width;
+  for (int ty = begin; ty < end; ++ty) {
+    std::fill_n(least, size.width, std::numeric_limits<float>::infinity());
+    std::fill_n(greatest, size.width, 0.0f);
+    const int y1 = std::min(size.height, (ty + 1) * tile);
+    for (int y = ty * tile; y < y1; ++y) {
+      const float* row = depth_m + index(size, 0, y);
+      for (int x = 0; x < size.width; ++x) {
+        const float depth = row[x] > 0.0f ? row[x] : 0.0f;
+        least[x] = depth < least[x] ? depth : least[x];
+        greatest[x] = depth > greatest[x] ? depth : greatest[x];
+      }
+    }
+    for (int tx = 0; tx < tiles.width; ++tx) {
+      const int x1 = std::min(size.width, (tx + 1) * tile);
+      DepthPyramid::Range range{least[tx * tile], greatest[tx * tile]};
+      for (int x = tx * tile + 1; x < x1; ++x) include({least[x], greatest[x]}, &range);
+      ranges[index(tiles, tx, ty)] = range;
+    }
+  }
+}
+
 }  // namespace
 
-void DepthPyramid::build(const float* depth_m, Size size) {
+void DepthPyramid::build(const float* depth_m, Size size, const Parallel& parallel) {
   std::size_t count = 1;
   for (Size s = fewer(size, tile); s.width > 1 || s.height > 1; s = fewer(s, 2)) ++count;
   levels_.resize(count);
@@ -31,22 +61,10 @@ void DepthPyramid::build(const float* depth_m, Size size) {
   Level& finest = levels_[0];
   finest.size = fewer(size, tile);
   finest.tiles.resize(finest.size.count());
-  for (int ty = 0; ty < finest.size.height; ++ty) {
-    for (int tx = 0; tx < finest.size.width; ++tx) {
-      const int x1 = std::min(size.width, (tx + 1) * tile);
-      const int y1 = std::min(size.height, (ty + 1) * tile);
-      const float first = std::max(0.0f, depth_m[index(size, tx * tile, ty * tile)]);
-      Range range{first, first};
-      for (int y = ty * tile; y < y1; ++y) {
-        for (int x = tx * tile; x < x1; ++x) {
-          const float depth = depth_m[index(size, x, y)];
-          const float valid = depth > 0.0f ? depth : 0.0f;
-          include({valid, valid}, &range);
-        }
-      }
-      finest.tiles[index(finest.size, tx, ty)] = range;
-    }
-  }
+  constexpr int rows_at_once = 8;
+  parallel.for_chunks(finest.size.height, rows_at_once, [&](int begin, int end) {
+    fill_rows(depth_m, size, begin, end, finest.size, finest.tiles.data());
+  });
   for (std::size_t i = 1; i < levels_.size(); ++i) {
     const Level& below = levels_[i - 1];
     Level& level = levels_[i];

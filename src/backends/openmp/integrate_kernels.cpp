@@ -18,31 +18,49 @@ namespace {
 
 constexpr int lanes() { return static_cast<int>(hn::MaxLanes(f32)); }
 
+/// The end of slambench::integrate_voxel: the voxels' average with a truncated distance, where
+/// `measured`.
+HWY_INLINE void average_lanes(FloatMask measured, Floats sdf, float max_weight, Ints* tsdf,
+                              Ints* weight) {
+  const Floats one = set(1.0f);
+  const auto changes = hn::RebindMask(i32, measured);
+  const Floats count = hn::ConvertTo(f32, *weight), more = hn::Add(count, one);
+  *weight = hn::IfThenElse(changes, hn::ConvertTo(i32, hn::Min(more, set(max_weight))), *weight);
+  // Free space that is seen free stays as it is, whatever the weight.
+  const auto same = hn::And(hn::Eq(*tsdf, set_int(BrickVolume::free_space)),
+                            hn::RebindMask(i32, hn::Eq(sdf, one)));
+  if (hn::AllTrue(i32, hn::Or(same, hn::Not(changes)))) return;
+  const Floats old = hn::Mul(hn::ConvertTo(f32, *tsdf), set(1.0f / tsdf_scale));
+  const Floats mean = hn::Div(hn::Add(hn::Mul(count, old), sdf), more);
+  const Floats stored = hn::Mul(hn::Max(set(-1.0f), hn::Min(one, mean)), set(tsdf_scale));
+  *tsdf = hn::IfThenElse(changes, hn::ConvertTo(i32, stored), *tsdf);
+}
+
 /// slambench::integrate_voxel: what distance and weight of the voxels become.
 HWY_INLINE void integrate_lanes(Vec3 center, const IntegrateInput& in, Ints* tsdf, Ints* weight) {
   const IntegrateParameters& p = in.parameters;
   const Floats one = set(1.0f);
   Ints x, y;
   const FloatMask inside = project(center, p.camera, in.size, p.min_depth_m, &x, &y);
+  if (hn::AllFalse(f32, inside)) return;
   const Floats depth =
       hn::GatherIndex(f32, in.depth_m, hn::Add(hn::Mul(y, set_int(in.size.width)), x));
 
+  // The distance along a ray is never nearer to 0 than the one along the axis, which often decides.
+  const Floats along_axis = hn::Sub(depth, center.z);
+  FloatMask measured =
+      hn::And(inside, hn::And(hn::Gt(depth, hn::Zero(f32)), hn::Gt(along_axis, set(-p.mu_m))));
+  if (hn::AllFalse(f32, measured)) return;
+  if (hn::AllTrue(f32, hn::Or(hn::Ge(along_axis, set(p.mu_m)), hn::Not(measured)))) {
+    return average_lanes(measured, one, p.max_weight, tsdf, weight);
+  }
   const Floats slope_x = hn::Div(center.x, center.z), slope_y = hn::Div(center.y, center.z);
   const Floats stretch =
       hn::Sqrt(hn::Add(hn::Add(one, hn::Mul(slope_x, slope_x)), hn::Mul(slope_y, slope_y)));
-  const Floats distance = hn::Mul(hn::Sub(depth, center.z), stretch);
-  const FloatMask measured =
-      hn::And(inside, hn::And(hn::Gt(depth, hn::Zero(f32)), hn::Gt(distance, set(-p.mu_m))));
-
+  const Floats distance = hn::Mul(along_axis, stretch);
+  measured = hn::And(measured, hn::Gt(distance, set(-p.mu_m)));
   const Floats sdf = hn::Min(one, hn::Div(distance, set(p.mu_m)));
-  const Floats count = hn::ConvertTo(f32, *weight);
-  const Floats old = hn::Mul(hn::ConvertTo(f32, *tsdf), set(1.0f / tsdf_scale));
-  const Floats more = hn::Add(count, one);
-  const Floats mean = hn::Div(hn::Add(hn::Mul(count, old), sdf), more);
-  const Floats stored = hn::Mul(hn::Max(set(-1.0f), hn::Min(one, mean)), set(tsdf_scale));
-  const auto changes = hn::RebindMask(i32, measured);
-  *tsdf = hn::IfThenElse(changes, hn::ConvertTo(i32, stored), *tsdf);
-  *weight = hn::IfThenElse(changes, hn::ConvertTo(i32, hn::Min(more, set(p.max_weight))), *weight);
+  average_lanes(measured, sdf, p.max_weight, tsdf, weight);
 }
 
 /// The voxels [first, last) along x of a line `start` + x `step` (camera frame) that can be
@@ -169,7 +187,7 @@ Corners corners_of(Float3 first, Float3 along_x, Float3 along_y, Float3 along_z)
 }
 
 void classify(BrickVolume& volume, const IntegrateInput& in, const DepthPyramid& depth, int by,
-              int bz, std::vector<std::int32_t>* varied) {
+              int bz, std::vector<BrickWork>* work) {
   constexpr int edge = BrickVolume::edge;
   const Rigid3f& t = in.parameters.T_camera_volume;
   const Float3 first = t.apply(voxel_center(0, by * edge, bz * edge, in.voxel_m));
@@ -193,43 +211,54 @@ void classify(BrickVolume& volume, const IntegrateInput& in, const DepthPyramid&
       volume.set_uniform_weight(
           brick, static_cast<std::int16_t>(std::min(weight + 1.0f, in.parameters.max_weight)));
     } else {
-      varied->push_back(static_cast<std::int32_t>(brick));
+      work->push_back({static_cast<std::int32_t>(brick), change});
     }
   }
 }
 
-void integrate_one_brick(BrickVolume& volume, const IntegrateInput& in, std::int32_t brick) {
-  constexpr int edge = BrickVolume::edge;
+/// Calls update(i, &tsdf, &weight) for all of a brick's voxels, lanes from the i-th on.
+template <class F>
+HWY_INLINE void update_brick(BrickVolume& volume, std::size_t brick, const F& update) {
   const hn::Rebind<std::int16_t, IntTag> i16;
-  const Int3 bricks = volume.bricks();
-  const Int3 corner = {brick % bricks.x * edge, brick / bricks.x % bricks.y * edge,
-                       brick / bricks.x / bricks.y * edge};
-  const Rigid3f& t = in.parameters.T_camera_volume;
   alignas(64) std::int16_t tsdf[BrickVolume::voxels], weights[BrickVolume::voxels];
-  volume.load(static_cast<std::size_t>(brick), tsdf, weights);
-
-  const auto coordinate = [](Ints i, int first, float voxel_m) {
-    const Floats index = hn::ConvertTo(f32, hn::Add(i, set_int(first)));
-    return hn::Mul(hn::Add(index, set(0.5f)), set(voxel_m));
-  };
-  const Ints low = set_int(edge - 1);
+  volume.load(brick, tsdf, weights);
   Ints changed = hn::Zero(i32);
   for (int i = 0; i < BrickVolume::voxels; i += lanes()) {
-    const Ints linear = hn::Add(hn::Iota(i32, 0), set_int(i));
-    const Vec3 center = {
-        coordinate(hn::And(linear, low), corner.x, in.voxel_m.x),
-        coordinate(hn::And(hn::ShiftRight<3>(linear), low), corner.y, in.voxel_m.y),
-        coordinate(hn::ShiftRight<6>(linear), corner.z, in.voxel_m.z)};
     const Ints old_tsdf = hn::PromoteTo(i32, hn::Load(i16, tsdf + i));
     const Ints old_weight = hn::PromoteTo(i32, hn::Load(i16, weights + i));
     Ints new_tsdf = old_tsdf, new_weight = old_weight;
-    integrate_lanes(apply(t, center), in, &new_tsdf, &new_weight);
+    update(i, &new_tsdf, &new_weight);
     changed = hn::Or(changed, hn::Or(hn::Xor(old_tsdf, new_tsdf), hn::Xor(old_weight, new_weight)));
     hn::Store(hn::DemoteTo(i16, new_tsdf), i16, tsdf + i);
     hn::Store(hn::DemoteTo(i16, new_weight), i16, weights + i);
   }
   if (hn::AllTrue(i32, hn::Eq(changed, hn::Zero(i32)))) return;
-  volume.store(static_cast<std::size_t>(brick), tsdf, weights);
+  volume.store(brick, tsdf, weights);
+}
+
+void integrate_one_brick(BrickVolume& volume, const IntegrateInput& in, BrickWork work) {
+  const auto brick = static_cast<std::size_t>(work.brick);
+  if (work.change == BrickChange::free) {
+    const FloatMask all = hn::Eq(hn::Zero(f32), hn::Zero(f32));
+    return update_brick(volume, brick, [&](int, Ints* tsdf, Ints* weight) {
+      average_lanes(all, set(1.0f), in.parameters.max_weight, tsdf, weight);
+    });
+  }
+  const Int3 corner = volume.voxel_at(brick, 0);
+  const Rigid3f& t = in.parameters.T_camera_volume;
+  const auto coordinate = [](Ints i, int first, float voxel_m) {
+    const Floats index = hn::ConvertTo(f32, hn::Add(i, set_int(first)));
+    return hn::Mul(hn::Add(index, set(0.5f)), set(voxel_m));
+  };
+  const Ints low = set_int(BrickVolume::edge - 1);
+  update_brick(volume, brick, [&](int i, Ints* tsdf, Ints* weight) {
+    const Ints linear = hn::Add(hn::Iota(i32, 0), set_int(i));
+    const Vec3 center = {
+        coordinate(hn::And(linear, low), corner.x, in.voxel_m.x),
+        coordinate(hn::And(hn::ShiftRight<3>(linear), low), corner.y, in.voxel_m.y),
+        coordinate(hn::ShiftRight<6>(linear), corner.z, in.voxel_m.z)};
+    integrate_lanes(apply(t, center), in, tsdf, weight);
+  });
 }
 
 }  // namespace
@@ -249,12 +278,12 @@ void integrate_rows(Voxel* voxels, const IntegrateInput& input, int begin, int e
 }
 
 void classify_bricks(BrickVolume& volume, const IntegrateInput& input, const DepthPyramid& depth,
-                     int by, int bz, std::vector<std::int32_t>* varied) {
-  HWY_DYNAMIC_DISPATCH(classify)(volume, input, depth, by, bz, varied);
+                     int by, int bz, std::vector<BrickWork>* work) {
+  HWY_DYNAMIC_DISPATCH(classify)(volume, input, depth, by, bz, work);
 }
 
-void integrate_brick(BrickVolume& volume, const IntegrateInput& input, std::int32_t brick) {
-  HWY_DYNAMIC_DISPATCH(integrate_one_brick)(volume, input, brick);
+void integrate_brick(BrickVolume& volume, const IntegrateInput& input, BrickWork work) {
+  HWY_DYNAMIC_DISPATCH(integrate_one_brick)(volume, input, work);
 }
 
 }  // namespace slambench

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "backends/host/brick_volume.h"
+#include "backends/openmp/parallel.h"
 #include "kernels/volume_maths.h"
 
 /// integrate over parts of the volume, on the widest vectors of this processor.
@@ -16,7 +17,7 @@ class DepthPyramid {
  public:
   static constexpr int tile = 4;  ///< pixels of the finest level's tiles
 
-  void build(const float* depth_m, Size size);
+  void build(const float* depth_m, Size size, const Parallel& parallel);
   /// Over pixels [x0, x1] x [y0, y1], which lie in the image, and some more around.
   struct Range {
     float least = 0, greatest = 0;
@@ -52,11 +53,16 @@ enum class BrickChange {
   free,    ///< every voxel is measured as free space, a truncated distance of 1
   varied,  ///< look at every voxel
 };
-/// Counts a measurement of bricks with by, bz whose voxels are all found in free space, and lists
-/// those that have to be looked at.
+/// A brick whose voxels have to be changed one by one.
+struct BrickWork {
+  std::int32_t brick = 0;
+  BrickChange change = BrickChange::varied;  ///< or free
+};
+/// Counts a measurement of bricks with by, bz whose voxels are all found in free space once more,
+/// and lists the others that change.
 void classify_bricks(BrickVolume& volume, const IntegrateInput& input, const DepthPyramid& depth,
-                     int by, int bz, std::vector<std::int32_t>* varied);
+                     int by, int bz, std::vector<BrickWork>* work);
 /// Updates the voxels of one brick; there must be planes in reserve.
-void integrate_brick(BrickVolume& volume, const IntegrateInput& input, std::int32_t brick);
+void integrate_brick(BrickVolume& volume, const IntegrateInput& input, BrickWork work);
 
 }  // namespace slambench

@@ -12,6 +12,7 @@ namespace slambench {
 namespace {
 
 constexpr int image_rows = 8;      // of a chunk
+constexpr int ray_rows = 4;        // of a chunk of rays, which take long
 constexpr int volume_rows = 64;    // of a chunk of the flat volume
 constexpr int bricks_at_once = 8;  // of a chunk of bricks
 
@@ -108,6 +109,10 @@ Reduction OpenmpBackend::do_reduce(const DeviceImage<TrackData>& rows) {
   return sum_bands(rows.size, [&](Rows band) { return reduce_band(track, rows.size, band); });
 }
 
+Twist OpenmpBackend::do_solve(const Reduction& reduction, double condition) {
+  return solve_motion_quickly(reduction, condition);
+}
+
 const ModelPoint* OpenmpBackend::packed_model(const DeviceImage<Float3>& vertices,
                                               const DeviceImage<Float3>& normals) {
   model_.resize(vertices.size.count());
@@ -144,7 +149,7 @@ AlignResult OpenmpBackend::do_align(const AlignInput& input, double condition) {
 
 void OpenmpBackend::do_integrate(Volume& volume, const DeviceImage<float>& depth_m,
                                  const IntegrateParameters& parameters) {
-  depth_.build(pixels(depth_m), depth_m.size);
+  depth_.build(pixels(depth_m), depth_m.size, parallel_);
   const Float3 size_m = volume.size_m;
   const IntegrateInput input = {pixels(depth_m),
                                 depth_m.size,
@@ -161,23 +166,22 @@ void OpenmpBackend::do_integrate(Volume& volume, const DeviceImage<float>& depth
 
 void OpenmpBackend::integrate_bricks(BrickVolume& volume, const IntegrateInput& input) {
   const Int3 bricks = volume.bricks();
-  varied_.resize(static_cast<std::size_t>(bricks.z));
+  slices_.resize(static_cast<std::size_t>(bricks.z));
   parallel_.for_chunks(bricks.z, 1, [&](int bz, int) {
-    std::vector<std::int32_t>& varied = varied_[static_cast<std::size_t>(bz)];
-    varied.clear();
-    for (int by = 0; by < bricks.y; ++by) classify_bricks(volume, input, depth_, by, bz, &varied);
+    std::vector<BrickWork>& slice = slices_[static_cast<std::size_t>(bz)];
+    slice.clear();
+    for (int by = 0; by < bricks.y; ++by) classify_bricks(volume, input, depth_, by, bz, &slice);
   });
-  all_varied_.clear();
-  for (const std::vector<std::int32_t>& varied : varied_) {
-    all_varied_.insert(all_varied_.end(), varied.begin(), varied.end());
+  work_.clear();
+  for (const std::vector<BrickWork>& slice : slices_) {
+    work_.insert(work_.end(), slice.begin(), slice.end());
   }
-  volume.reserve(all_varied_.size());
-  parallel_.for_chunks(static_cast<int>(all_varied_.size()), bricks_at_once,
-                       [&](int begin, int end) {
-                         for (int i = begin; i < end; ++i) {
-                           integrate_brick(volume, input, all_varied_[static_cast<std::size_t>(i)]);
-                         }
-                       });
+  volume.reserve(work_.size());
+  parallel_.for_chunks(static_cast<int>(work_.size()), bricks_at_once, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      integrate_brick(volume, input, work_[static_cast<std::size_t>(i)]);
+    }
+  });
   volume.refresh();
 }
 
@@ -189,9 +193,9 @@ void OpenmpBackend::march(RaycastOutput output, const Volume& volume,
   }
   with_map(volume, [&](const auto& map) {
     const bool reaches = raycast_reaches(map);
-    for_rows(output.size.height, [&](Rows rows) {
-      if (reaches) return raycast_rows(output, map, parameters, rows);
-      for (int y = rows.begin; y < rows.end; ++y) {
+    parallel_.for_chunks(output.size.height, ray_rows, [&](int begin, int end) {
+      if (reaches) return raycast_rows(output, map, parameters, {begin, end});
+      for (int y = begin; y < end; ++y) {
         for (int x = 0; x < output.size.width; ++x) {
           const std::size_t i =
               static_cast<std::size_t>(y) * static_cast<std::size_t>(output.size.width) +

@@ -15,8 +15,8 @@
 namespace slambench {
 
 /// The host at its limit: threads over rows and bricks, SIMD inside. Every kernel rounds as the
-/// reference does, except for the exponential of the bilateral filter and the order of sums in the
-/// reduction, both the same on any number of threads.
+/// reference does, except for the exponential of the bilateral filter, the order of sums in the
+/// reduction and the factors of the solve, all the same on any number of threads.
 class OpenmpBackend final : public HostBackend {
  public:
   /// 0 threads: one per core that this process may use.
@@ -45,6 +45,7 @@ class OpenmpBackend final : public HostBackend {
                 const DeviceImage<Float3>& model_normals,
                 const TrackParameters& parameters) override;
   Reduction do_reduce(const DeviceImage<TrackData>& rows) override;
+  Twist do_solve(const Reduction& reduction, double condition) override;
   AlignResult do_align(const AlignInput& input, double condition) override;
   bool fuses_align() const override { return true; }
   void do_integrate(Volume& volume, const DeviceImage<float>& depth_m,
@@ -78,11 +79,11 @@ class OpenmpBackend final : public HostBackend {
              const Float3* normals) const;
 
   Parallel parallel_;
-  std::vector<ModelPoint> model_;                  ///< of the alignment in progress
-  std::vector<Reduction> bands_;                   ///< of the reduction in progress
-  DepthPyramid depth_;                             ///< of the integration in progress
-  std::vector<std::vector<std::int32_t>> varied_;  ///< bricks to look at, per slice of bricks
-  std::vector<std::int32_t> all_varied_;
+  std::vector<ModelPoint> model_;               ///< of the alignment in progress
+  std::vector<Reduction> bands_;                ///< of the reduction in progress
+  DepthPyramid depth_;                          ///< of the integration in progress
+  std::vector<std::vector<BrickWork>> slices_;  ///< what it has to do, per slice of bricks
+  std::vector<BrickWork> work_;
   StartDepths start_;                                 ///< of the raycast in progress
   std::vector<Float3> seen_vertices_, seen_normals_;  ///< of the render_volume in progress
 };
