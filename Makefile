@@ -15,7 +15,7 @@ help: ## show this
 	@echo "make run        set up, build, and benchmark the built-in sequence"
 	@echo "                (ARGS='path/to/recording -c 2' runs something else)"
 	@echo "make paper      set up, build, run the experiment of the SLAMBench paper (some 25"
-	@echo "                minutes on two cores), and make its report"
+	@echo "                minutes on two cores), and make its report, in OUT=results/paper"
 	@echo "make test       set up, build, and run all tests"
 	@echo "make asan       the tests under AddressSanitizer and UndefinedBehaviourSanitizer"
 	@echo "make tsan       the agreement tests under ThreadSanitizer"
@@ -42,13 +42,15 @@ run: dependencies
 	@cmake --build --preset release --parallel $(JOBS) --target slambench
 	@build/release/apps/slambench/slambench run $(ARGS)
 
-# Goes on where it was interrupted. ARGS='--frames=50 --out=results/try' tries it out.
-paper: OUT = $(or $(patsubst --out=%,%,$(filter --out=%,$(subst --out ,--out=,$(ARGS)))),results/paper)
+# Goes on where it was interrupted. OUT=results/try ARGS=--frames=50 tries it out.
+paper: OUT = results/paper
 paper: dependencies
 	@cmake --preset release
 	@cmake --build --preset release --parallel $(JOBS) --target slambench
-	@build/release/apps/slambench/slambench suite configs/paper.toml $(ARGS)
-	@build/release/apps/slambench/slambench report $(OUT) -o $(OUT)/report.html
+	@build/release/apps/slambench/slambench suite configs/paper.toml --out "$(OUT)" $(ARGS)
+ifeq ($(filter --dry-run,$(ARGS)),)
+	@build/release/apps/slambench/slambench report "$(OUT)" -o "$(OUT)/report.html"
+endif
 
 test: build
 	@ctest --preset release --parallel $(JOBS)

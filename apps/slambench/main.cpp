@@ -16,7 +16,7 @@
 #include "core/logged_error.h"
 #include "help.h"
 #include "results/provenance.h"
-#include "shell_text.h"
+#include "core/shell_text.h"
 #include "terminal.h"
 #include "wait_policy.h"
 

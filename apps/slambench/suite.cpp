@@ -27,7 +27,7 @@
 #include "results/page.h"
 #include "results/provenance.h"
 #include "runner/input_hash.h"
-#include "shell_text.h"
+#include "core/shell_text.h"
 #include "suite/suite_folder.h"
 #include "suite/suite_plan.h"
 #include "suite/suite_summary.h"

@@ -13,6 +13,7 @@
 
 #include "analysis/figure.h"
 #include "core/error.h"
+#include "core/shell_text.h"
 #include "exports/exports.h"
 
 namespace slambench {
@@ -33,8 +34,9 @@ struct Configuration {
 std::string command_for(const ExportRun& each) {
   std::string file = each.name;
   std::replace(file.begin(), file.end(), '/', '-');
-  return fmt::format("slambench export '{}' --format google-benchmark -o '{}.json'",
-                     std::filesystem::path(each.run.path).parent_path().string(), file);
+  return shell_text({"slambench", "export",
+                     std::filesystem::path(each.run.path).parent_path().string(), "--format",
+                     "google-benchmark", "-o", file + ".json"});
 }
 
 /// "living-room/2", with the backend where runs of several are there: two files of one backend each

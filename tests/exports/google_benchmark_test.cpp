@@ -101,9 +101,9 @@ TEST_F(GoogleBenchmarkTest, RefusesWhatWouldBeMixedUpOrDoesNotCount) {
   EXPECT_THAT(
       refusal({single_record(), other}),
       AllOf(HasSubstr("r0"), HasSubstr("r1"), HasSubstr("volume-size (5,5,5 against 4,4,4)"),
-            HasSubstr("files of their own: slambench export '" + folder_.path("r0") +
-                      "' --format google-benchmark -o 'r0.json' && slambench export '" +
-                      folder_.path("r1") + "' --format google-benchmark -o 'r1.json'")));
+            HasSubstr("files of their own: slambench export " + folder_.path("r0") +
+                      " --format google-benchmark -o r0.json && slambench export " +
+                      folder_.path("r1") + " --format google-benchmark -o r1.json")));
   other = single_record();
   other.complete = false;
   EXPECT_THAT(refusal({other}), HasSubstr("was interrupted"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: The SLAMBench authors
-#include "shell_text.h"
+#include "core/shell_text.h"
 
 namespace slambench {
 
