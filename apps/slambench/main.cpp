@@ -14,9 +14,9 @@
 #include "commands.h"
 #include "config/nearest.h"
 #include "core/logged_error.h"
+#include "core/shell_text.h"
 #include "help.h"
 #include "results/provenance.h"
-#include "core/shell_text.h"
 #include "terminal.h"
 #include "wait_policy.h"
 
