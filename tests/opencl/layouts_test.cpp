@@ -61,7 +61,7 @@ TEST_P(Layouts, AgreeWithTheReference) {
 /// As in a grid of more voxels than 32 bits count, with lanes and without.
 TEST_P(Layouts, AgreeOnTheGridInWideIndices) {
   BackendOptions options = with(GetParam().layout);
-  options.opencl.build_options = "-DWIDE=1";  // the later of two wins
+  options.opencl.build_options = "-DALWAYS_WIDE";
   Candidate candidate = make_candidate("opencl", options);
   for (const Check& check : check_table()) {
     const bool reads_the_volume =
@@ -100,6 +100,45 @@ TEST(OpenclParameters, GiveAKernelItsOwnBuildOptionsAfterThoseOfAll) {
   EXPECT_EQ(parameters.build_options_of("start_depths"), "-DA=1 -w -DA=2");
   EXPECT_EQ(parameters.build_options_of("raycast"), "-DA=1 -w");
   EXPECT_THROW(parameters.build_options_of("start-depths"), std::invalid_argument);
+}
+
+/// What the message says of an option, with what is set for all kernels.
+std::string complaint_about(const char* name, const char* options) {
+  OpenclParameters parameters;
+  parameters.build_options = "-w";
+  const std::vector<ParameterList> lists = {parameters.describe()};
+  set_from_text(*find(lists, name), options);
+  return testing::message_of<UsageError>([&] { parameters.check(true); });
+}
+
+TEST(OpenclParameters, RefuseBuildOptionsThatDefineTheProgramsOwnMacros) {
+  const std::string expected = ", expected none of the macros that the program defines itself: ";
+  for (const char* macro : {"GROUP=64", "LANES=8", "PER_ITEM", "BRICKS=1", "WIDE=1",
+                            "ONLY_MISSES=1", "TILE=4", "MOST_TILES=1", "GROUP(x)=x"}) {
+    const std::string message =
+        complaint_about("opencl-mm2meters-options", (std::string("-DA=1 -D") + macro).c_str());
+    EXPECT_NE(message.find(std::string("--opencl-mm2meters-options: found -D") + macro + expected),
+              std::string::npos)
+        << message;
+  }
+  for (const char* options : {"-ULANES", "-D LANES=8", "-U LANES -w"}) {
+    EXPECT_NE(complaint_about("opencl-build-options", options).find(expected), std::string::npos)
+        << options;
+  }
+}
+
+TEST(OpenclParameters, RefuseBuildOptionsThatEndWhereANameHasToFollow) {
+  for (const char* options : {"-D", "-w -U ", "-I", "-D -w"}) {
+    EXPECT_NE(complaint_about("opencl-track-options", options).find(" alone, expected a name"),
+              std::string::npos)
+        << options;
+  }
+}
+
+TEST(OpenclParameters, TakeOtherBuildOptions) {
+  OpenclParameters parameters;
+  parameters.build_options = " -DLANES_OF=8 -D A -IGROUP -I . -UB -cl-mad-enable ";
+  EXPECT_NO_THROW(parameters.check(true));
 }
 
 TEST(OpenclParameters, RefuseWhatNoKernelCanHave) {

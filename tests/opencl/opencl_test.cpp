@@ -223,10 +223,13 @@ TEST_F(Opencl, BuildOptionsOfAKernelAreItsAlone) {
               AllOf(HasSubstr("half_sample.cl does not build"), HasSubstr("-DRowPacket=5")));
 }
 
+/// Makes an array of arrays of the local memory of start_depths.
+constexpr char too_much_local_memory[] = "-Down_tiles=own_tiles[25000]";
+
 TEST_F(Opencl, AKernelOverTheLocalMemoryIsUnavailable) {
   if (!tells_local_memory()) GTEST_SKIP() << "PoCL does not tell what a kernel needs";
   OpenclParameters parameters;
-  parameters.build_options = "-DMOST_TILES=100000000";  // the later of two wins
+  parameters.build_options = too_much_local_memory;
   const auto backend = make_opencl_backend(0, parameters);
   auto vertices = backend->make_image<Float3>({8, 8}),
        normals = backend->make_image<Float3>({8, 8});
@@ -361,18 +364,28 @@ INSTANTIATE_TEST_SUITE_P(
                   {"--opencl-build-options=-Dhalf_sample=5"},
                   1,
                   {"half_sample.cl does not build on", "the compiler says:\n  ", "error: "}},
-        ErrorCase{"BuildFailureOfOneKernel",
-                  {"--opencl-track-options=-DRowPacket=5", "--opencl-align-options=-DRowPacket=5"},
-                  1,
-                  {"align.cl does not build on", "-DRowPacket=5'; the compiler says:\n  "}},
-        ErrorCase{"NoSuchBuildOption",
-                  {"--opencl-build-options=-no-such-option"},
+        ErrorCase{
+            "BuildFailureOfOneKernel",
+            {"--opencl-track-options=-DRowPacket=5", "--opencl-align-options=-DRowPacket=5"},
+            1,
+            {"align.cl does not build on", "-DRowPacket=5 -DGROUP=", "; the compiler says:\n  "}},
+        ErrorCase{
+            "NoSuchBuildOption",
+            {"--opencl-build-options=-no-such-option"},
+            2,
+            {".cl does not build on", "-no-such-option -DGROUP=", "; the compiler says:\n  "}},
+        ErrorCase{"OwnMacro",
+                  {"--opencl-mm2meters-options=-DLANES=8"},
                   2,
-                  {".cl does not build on", "-no-such-option'; the compiler says:\n  "}},
+                  {"--opencl-mm2meters-options: found -DLANES=8, expected none of"}},
+        ErrorCase{"NoMacro",
+                  {"--opencl-build-options=-D"},
+                  2,
+                  {"--opencl-build-options: found -D alone, expected a name after it"}},
         ErrorCase{"LocalMemory",
-                  {"--opencl-start-depths-options=-DMOST_TILES=100000000"},
+                  {std::string("--opencl-start-depths-options=") + too_much_local_memory},
                   4,
-                  {"kernel start_depths: found 400000000 bytes of local memory needed"}},
+                  {"kernel start_depths: found 409600000 bytes of local memory needed"}},
         ErrorCase{"Memory",
                   {"-v", "1024", "--map", "grid"},
                   4,

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <sstream>
 #include <stdexcept>
 
 #include "core/error.h"
@@ -46,6 +48,10 @@ constexpr Row rows[] = {
 #undef PARAMETERS
 static_assert(std::size(rows) == OpenclParameters::kernels);
 
+/// Macros of the kernels that say how, and for what, they are launched.
+constexpr std::string_view own_macros[] = {"GROUP", "LANES",       "PER_ITEM", "BRICKS",
+                                           "WIDE",  "ONLY_MISSES", "TILE",     "MOST_TILES"};
+
 constexpr int most_work_items = 1024;
 
 bool is_power_of_two(int n) { return n > 0 && (n & (n - 1)) == 0; }
@@ -55,6 +61,30 @@ std::size_t row_of(std::string_view kernel) {
     if (rows[i].kernel == kernel) return i;
   }
   throw std::invalid_argument("opencl: no such kernel");
+}
+
+/// `name` is that of the macro or folder, which may be a word of its own.
+void check_option(std::string_view parameter, std::string_view option, std::string_view name) {
+  if (name.empty() || name[0] == '-') {
+    throw UsageError(
+        fmt::format("--{}: found {} alone, expected a name after it", parameter, option));
+  }
+  const std::string_view macro = name.substr(0, name.find_first_of("=("));
+  if (option == "-I" || std::ranges::find(own_macros, macro) == std::end(own_macros)) return;
+  throw UsageError(
+      fmt::format("--{}: found {}{}, expected none of the macros that the program "
+                  "defines itself: {}",
+                  parameter, option, name, fmt::join(own_macros, ", ")));
+}
+
+void check_build_options(std::string_view parameter, const std::string& options) {
+  std::istringstream words(options);
+  for (std::string word, next; words >> word;) {
+    const std::string option = word.substr(0, 2);
+    if (option != "-D" && option != "-U" && option != "-I") continue;
+    if (word == option) word += words >> next ? next : "";
+    check_option(parameter, option, std::string_view(word).substr(2));
+  }
 }
 
 }  // namespace
@@ -95,8 +125,12 @@ std::string OpenclParameters::build_options_of(std::string_view name) const {
   return build_options.empty() || own.empty() ? build_options + own : build_options + " " + own;
 }
 
-void OpenclParameters::check_layouts(bool on_processor) const {
-  for (const Row& row : rows) layout(row.kernel, on_processor);
+void OpenclParameters::check(bool on_processor) const {
+  check_build_options("opencl-build-options", build_options);
+  for (std::size_t i = 0; i < kernels; ++i) {
+    layout(rows[i].kernel, on_processor);
+    check_build_options(rows[i].build_options, kernel_build_options[i]);
+  }
 }
 
 }  // namespace slambench

@@ -31,9 +31,10 @@ struct OpenclParameters {
   /// Of kernels/NAME.cl, with the defaults of the kind of device filled in. Throws UsageError for
   /// one that no kernel can have.
   KernelLayout layout(std::string_view name, bool on_processor) const;
-  /// Throws the same for the first of all kernels.
-  void check_layouts(bool on_processor) const;
-  /// All that the compiler is to be given for kernels/NAME.cl. Of two that contradict each other
+  /// Throws the same for the first of all kernels, and for build options that define what the
+  /// program defines itself or that end where a name has to follow.
+  void check(bool on_processor) const;
+  /// All that a user has for the compiler of kernels/NAME.cl. Of two that contradict each other
   /// compilers take the later: the kernel's own.
   std::string build_options_of(std::string_view name) const;
 };

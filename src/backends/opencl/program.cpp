@@ -30,13 +30,16 @@ std::string source_of(const std::string& name) {
   return text.append(kernel_texts::find(name));
 }
 
+/// Of two that contradict each other compilers take the later: the user's options come after those
+/// that may be changed and before the macros, which the launches rely on.
 std::string options_of(const OpenclDevice& device, const KernelLayout& layout,
                        const std::string& macros, const std::string& further) {
-  std::string options = fmt::format("-cl-std=CL1.2 -DGROUP={} -DLANES={} -DPER_ITEM={}",
-                                    layout.group, layout.lanes, layout.per_item);
+  std::string options = "-cl-std=CL1.2";
   if (device.divides_exactly) options += " -cl-fp32-correctly-rounded-divide-sqrt";
-  if (!macros.empty()) options += " " + macros;
   if (!further.empty()) options += " " + further;
+  options += fmt::format(" -DGROUP={} -DLANES={} -DPER_ITEM={}", layout.group, layout.lanes,
+                         layout.per_item);
+  if (!macros.empty()) options += " " + macros;
   return options;
 }
 

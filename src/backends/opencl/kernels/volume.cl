@@ -165,11 +165,11 @@ INLINE void around(const Map* map, const Ints* x, const Ints* y, const Ints* z,
 
 #else
 
-// WIDE: there are more voxels than a lane can count.
+// WIDE: there are more voxels than a lane can count. ALWAYS_WIDE: as if there were, for tests.
 INLINE Floats tsdf_at(const Map* map, Ints x, Ints y, Ints z) {
   global const int* pairs = (global const int*)map->values;
   const Ints row = z * map->n.y + y;
-#if WIDE
+#if WIDE || defined(ALWAYS_WIDE)
 #define AT(lane, i) pairs[(size_t)(row lane) * map->n.x + x lane]
   const Ints pair = (Ints)(EACH(AT));
 #undef AT
