@@ -152,6 +152,21 @@ TEST_P(FindsWhatIsWrong, AnException) {
   EXPECT_THAT(result.failures.front().where, HasSubstr("the device is lost"));
 }
 
+/// Where the room's walls are farther than what was seen.
+TEST(RenderVolume, ShowsRaysThatGoNoFartherThanWhatWasSeen) {
+  Candidate candidate = broken(Kernel::render_volume, Defect::seen);
+  const Agreement result = agreement(*find_check("render_volume"), candidate, MapKind::grid, {});
+  const std::string quantity = "pixels apart by more, of pixels";
+  const auto apart = [&](const char* input, const char* look) {
+    return Contains(testing::AllOf(Field(&Deviation::input, input),
+                                   Field(&Deviation::quantity, quantity),
+                                   Field(&Deviation::where, HasSubstr(look))));
+  };
+  EXPECT_THAT(result.failures,
+              apart("room written 64x64x64", "from inside 97x41, farther than seen"))
+      << text(result);
+}
+
 std::vector<Kernel> checked_kernels() {
   std::vector<Kernel> kernels;
   for (const Check& check : check_table()) {

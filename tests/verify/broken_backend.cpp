@@ -198,4 +198,11 @@ void BrokenBackend::do_render_volume(DeviceImage<Rgba8>& image, const Volume& vo
   }
 }
 
+void BrokenBackend::do_render_seen(DeviceImage<Rgba8>& image, const Volume& volume,
+                                   const RaycastParameters& view, const ShadeParameters& shading,
+                                   const SeenSurface& seen) {
+  do_render_volume(image, volume, is(Kernel::render_volume, Defect::seen) ? seen.view : view,
+                   shading);
+}
+
 }  // namespace slambench

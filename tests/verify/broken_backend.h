@@ -19,6 +19,7 @@ enum class Defect {
   unwritten,  ///< the last result is not computed
   overrun,    ///< one more is
   input,      ///< an input is changed
+  seen,       ///< of render_volume: rays that met nothing in what was seen go no farther
   unsteady,   ///< another result every time, within tolerance
   throws,
 };
@@ -62,6 +63,9 @@ class BrokenBackend final : public HostBackend {
   void do_render_track(DeviceImage<Rgba8>& image, const DeviceImage<TrackData>& rows) override;
   void do_render_volume(DeviceImage<Rgba8>& image, const Volume& volume,
                         const RaycastParameters& view, const ShadeParameters& shading) override;
+  void do_render_seen(DeviceImage<Rgba8>& image, const Volume& volume,
+                      const RaycastParameters& view, const ShadeParameters& shading,
+                      const SeenSurface& seen) override;
 
  private:
   bool is(Kernel kernel, Defect defect) const { return broken_ == kernel && defect_ == defect; }
