@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <string_view>
 #include <utility>
@@ -56,13 +58,35 @@ std::string cache_file(const OpenclDevice& device, const std::string& options,
   }
 }
 
-/// The program from the cache; a null one when it is not there or does not fit any more.
+/// Before a program in its file: drivers may crash on a damaged one.
+struct Header {
+  std::uint64_t magic = 0;
+  std::uint64_t size = 0;
+  std::uint64_t hash = 0;  ///< of what follows
+};
+
+Header header_of(std::string_view program) {
+  constexpr std::uint64_t magic = 0x31304c434f424c53;  // "SLBOCL01" as bytes
+  return {magic, program.size(), XXH3_64bits(program.data(), program.size())};
+}
+
+/// The program in the bytes of a file; empty when they are not what was written.
+std::string_view program_in(std::string_view bytes) {
+  if (bytes.size() < sizeof(Header)) return {};
+  const std::string_view program = bytes.substr(sizeof(Header));
+  const Header expected = header_of(program);
+  return std::memcmp(bytes.data(), &expected, sizeof expected) == 0 ? program : std::string_view();
+}
+
+/// The program from the cache; a null one when it is not there, damaged or does not fit any more.
 cl::Program cached(const cl::Context& context, const cl::Device& device, const std::string& file,
                    const std::string& options) {
   try {
     if (!fs::is_regular_file(file)) return {};
     const std::string bytes = read_file(file);
-    cl::Program program(context, {device}, {{bytes.begin(), bytes.end()}});
+    const std::string_view binary = program_in(bytes);
+    if (binary.empty()) return {};
+    cl::Program program(context, {device}, {{binary.begin(), binary.end()}});
     program.build({device}, options.c_str());
     return program;
   } catch (const std::exception&) {
@@ -79,7 +103,9 @@ void keep(const cl::Program& program, const std::string& file) {
     const std::string folder = fs::path(file).parent_path();
     fs::create_directories(folder);
     remove_leftovers(folder);
-    write_file(file, {reinterpret_cast<const char*>(binaries[0].data()), binaries[0].size()});
+    const std::string binary(binaries[0].begin(), binaries[0].end());
+    const Header header = header_of(binary);
+    write_file(file, std::string(reinterpret_cast<const char*>(&header), sizeof header) + binary);
   } catch (const std::exception&) {
   }
 }
