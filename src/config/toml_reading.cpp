@@ -43,6 +43,19 @@ bool type_fits(const Parameter& parameter, const toml::node& node) {
   return is_number(node) || (!one_number && node.is_array());
 }
 
+/// A NUL would end the text early where the system or a driver reads it.
+void reject_nul(const toml::node& node, const std::string& path) {
+  if (const auto* text = node.as_string(); text && text->get().find('\0') != std::string::npos) {
+    TomlPlace{path, node}.reject("found text with a NUL character, expected text without");
+  }
+  if (const auto* array = node.as_array()) {
+    for (const toml::node& element : *array) reject_nul(element, path);
+  }
+  if (const auto* table = node.as_table()) {
+    for (const auto& [key, value] : *table) reject_nul(value, path);
+  }
+}
+
 }  // namespace
 
 void TomlPlace::reject(const std::string& message) const {
@@ -51,7 +64,9 @@ void TomlPlace::reject(const std::string& message) const {
 
 toml::table parse_toml(std::string_view text, const std::string& path) {
   try {
-    return toml::parse(text);
+    toml::table table = toml::parse(text);
+    reject_nul(table, path);
+    return table;
   } catch (const toml::parse_error& error) {
     throw InputError(
         fmt::format("{}:{}: not TOML: {}", path, error.source().begin.line, error.description()));

@@ -22,7 +22,7 @@ struct TomlPlace {
   [[noreturn]] void reject(const std::string& message) const;
 };
 
-/// Throws InputError naming file and line for what is not TOML.
+/// Throws InputError naming file and line for what is not TOML, and for text with a NUL.
 toml::table parse_toml(std::string_view text, const std::string& path);
 
 /// The value nearly as a user wrote it, for messages.

@@ -135,6 +135,10 @@ TEST_F(SettingsTest, WhatAFileGetsWrongIsNamedWithItsLine) {
   EXPECT_THAT(input_error("[kinectfusion]\nmu = 0.1\nmu = 0.2\n"), HasSubstr("a.toml:3: not TOML"));
   EXPECT_THAT(input_error("[kinectfusion\n"), HasSubstr("a.toml:1: not TOML"));
   EXPECT_THAT(input_error(std::string_view("\0\xff", 2)), HasSubstr("a.toml:1: not TOML"));
+  const std::string nul = "found text with a NUL character, expected text without";
+  EXPECT_EQ(input_error("\nsequence = \"a\\u0000b\"\n"), "a.toml:2: " + nul);
+  EXPECT_EQ(input_error("[kinectfusion]\nmap = \"grid\\u0000\"\n"), "a.toml:2: " + nul);
+  EXPECT_EQ(input_error("[kinectfusion]\nvolume-size = [\"\\u0000\"]\n"), "a.toml:2: " + nul);
 }
 
 TEST_F(SettingsTest, AMissingFileIsNamed) {
