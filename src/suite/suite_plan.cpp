@@ -283,7 +283,11 @@ std::vector<std::string> run_arguments(const Configuration& configuration) {
       "run", fmt::format("{}{}", looks_like_option ? "--input-file=" : "", configuration.sequence)};
   if (!configuration.preset.empty()) words.push_back("--preset=" + configuration.preset);
   for (const ConfigAssignment& assignment : configuration.assignments) {
-    words.push_back(fmt::format("--{}={}", assignment.name, assignment.value));
+    if (assignment.value.empty()) {  // after a '=' the command line takes nothing for no value
+      words.insert(words.end(), {"--" + assignment.name, ""});
+    } else {
+      words.push_back(fmt::format("--{}={}", assignment.name, assignment.value));
+    }
   }
   return words;
 }

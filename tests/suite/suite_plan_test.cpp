@@ -42,7 +42,8 @@ class SuitePlanTest : public ::testing::Test {
   RunParameters run_;
   BackendOptions backend_;
   KinectFusionParameters fusion_;
-  std::vector<ParameterList> lists_ = {run_.describe(), backend_.describe(), fusion_.describe()};
+  std::vector<ParameterList> lists_ = {run_.describe(), backend_.describe(), fusion_.describe(),
+                                       backend_.opencl.describe()};
 };
 
 TEST_F(SuitePlanTest, EveryCombinationOfTheMatrixOnEverySequence) {
@@ -63,6 +64,11 @@ TEST_F(SuitePlanTest, EveryCombinationOfTheMatrixOnEverySequence) {
   EXPECT_THAT(run_arguments(all[1]),
               ElementsAre("run", "living-room/0", "--preset=slambench1", "--backend=openmp",
                           "--volume-resolution=64,64,64", "--mu=0.2", "--fused=true"));
+}
+
+TEST_F(SuitePlanTest, AnEmptyValueIsAWordOfItsOwn) {
+  const auto all = plan("sequence = 'a'\n[opencl]\nopencl-build-options = ''\n");
+  EXPECT_THAT(run_arguments(all[0]), ElementsAre("run", "a", "--opencl-build-options", ""));
 }
 
 TEST_F(SuitePlanTest, ASuiteOfOneRunNeedsNoMatrix) {
