@@ -192,8 +192,12 @@ FigureComparison compared(const Candidate& candidate, const Basis& basis, double
 
 ComparedSide side(const RunGroup& group) {
   const StoredRun& run = group.runs.front();
-  return {group.name, run_count(group), run.text("sequence.name"), run.text("provenance.backend"),
-          run.text("provenance.commit")};
+  return {group.name,
+          run_count(group),
+          run.text("sequence.name"),
+          run.text("provenance.backend"),
+          run.text("provenance.commit"),
+          value_of(find_figure("between_stages_s")->place, run).has_value()};
 }
 
 void check_figures(const std::vector<std::string>& names) {

@@ -45,6 +45,7 @@ struct ComparedSide {
   std::string name;  ///< what the user called them
   std::size_t runs = 1;
   std::string sequence, backend, commit;
+  bool in_one_go = false;  ///< frames are: stages are the device's times of their kernels
 };
 
 struct Comparison {

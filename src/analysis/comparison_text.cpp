@@ -163,6 +163,15 @@ std::vector<std::string> notes(const Comparison& c) {
         "Within tolerance: a difference in accuracy as another rounding of the same computation "
         "makes it; --tolerance sets another.");
   }
+  if (c.base.in_one_go != c.other.in_one_go &&
+      std::any_of(c.figures.begin(), c.figures.end(), [](const FigureComparison& f) {
+        return f.figure->group == FigureGroup::stages;
+      })) {
+    list.push_back(fmt::format(
+        "Stages of {} are the device's times of their kernels, those of {} wall times: "
+        "computation and total are wall times on both sides.",
+        (c.base.in_one_go ? c.base : c.other).name, (c.base.in_one_go ? c.other : c.base).name));
+  }
   if (c.intervals == 0) {
     list.emplace_back(
         "No interval can be given: a single run on each side without the times of "

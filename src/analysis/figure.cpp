@@ -30,6 +30,8 @@ void add_times(std::vector<NamedFigure>* table) {
         fmt::format("time.stages.{}.seconds_per_frame", name(stage)),
         "mean time a frame in the stage");
   }
+  add("between_stages_s", FigureGroup::stages, "time.between_stages.seconds_per_frame",
+      "mean time a frame of the computation in no stage, where frames are computed in one go");
   for (const KernelInfo& kernel : kernel_table()) {
     if (kernel.stage == Stage::init) continue;
     add(fmt::format("kernel_{}_s", kernel.name), FigureGroup::kernels,

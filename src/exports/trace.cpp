@@ -33,6 +33,10 @@ constexpr const char* laid_out =
     "stages follow one another in the order of the pipeline, without the moments between them, and "
     "within a stage its kernels, each once with the time of all its calls: lengths are measured, "
     "these places are not.";
+constexpr const char* in_one_go =
+    "Frames were computed in one go: there a stage is as long as its kernels, by the device's "
+    "clock, "
+    "and the rest of the computation's wall time is the gap before drawing.";
 constexpr const char* no_starts =
     "This result folder does not have the times at which frames began: they are laid end to end.";
 constexpr const char* own_track =
@@ -63,6 +67,13 @@ class Frames {
     const auto it = columns_.find(column);
     return it == columns_.end() ? std::nan("") : it->second[row];
   }
+  /// Whether any was computed in one go: its stages are not the whole computation.
+  bool in_one_go() const {
+    for (std::size_t row = 0; row < count(); ++row) {
+      if (!std::isnan(value("between_stages_s", row))) return true;
+    }
+    return false;
+  }
   bool dropped(std::size_t row) const { return value("dropped", row) == 1; }
   int index(std::size_t row) const { return static_cast<int>(value("index", row)); }
 
@@ -70,6 +81,8 @@ class Frames {
   std::optional<Nanoseconds> stage(Stage stage, std::size_t row) const {
     return length(fmt::format("stage_{}_s", name(stage)), row);
   }
+  /// Of the computation, in no stage.
+  Nanoseconds between(std::size_t row) const { return length("between_stages_s", row).value_or(0); }
   std::optional<Nanoseconds> kernel(Kernel kernel, std::size_t row) const {
     return length(fmt::format("kernel_{}_s", name(kernel)), row);
   }
@@ -179,13 +192,14 @@ class RunTrace {
   /// Returns its end. `before` is that of the frame before.
   Nanoseconds add_frame(const Frames& frames, std::size_t row, Nanoseconds before) {
     const auto [begin, processed] = starts(frames, row, before);
-    Nanoseconds end = processed;
+    const Nanoseconds between = frames.between(row);
+    Nanoseconds end = processed + between;
     for (const Stage stage : stages) {
       if (stage != Stage::acquire) end += frames.stage(stage, row).value_or(0);
     }
     Json facts = Json::object();
     for (const char* name : {"tracked", "integrated", "warmup", "time_s", "error_se3_m",
-                             "transfer_to_device_s", "transfer_to_host_s"}) {
+                             "between_stages_s", "transfer_to_device_s", "transfer_to_host_s"}) {
       const double value = frames.value(name, row);
       if (!std::isnan(value)) facts[name] = value;
     }
@@ -194,6 +208,7 @@ class RunTrace {
     Nanoseconds at = begin;
     for (const Stage stage : stages) {
       if (stage == Stage::preprocess) at = processed;
+      if (stage == Stage::render) at += between;
       const auto taken = frames.stage(stage, row);
       if (taken) add_slice("stage", std::string(name(stage)), pipeline_thread, at, *taken, {});
       add_kernels(frames, row, stage, at, at + taken.value_or(0));
@@ -256,6 +271,7 @@ std::string add_run(const ExportRun& each, int process, std::vector<Json>* event
     }
   }
   std::string words = laid_out;
+  if (frames.in_one_go()) words += fmt::format(" {}", in_one_go);
   if (!frames.have_starts()) words += fmt::format(" {}", no_starts);
   if (!nested) words += fmt::format(" {}", own_track);
   return words;

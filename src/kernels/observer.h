@@ -32,8 +32,8 @@ class Observer {
   virtual void kernel_end(Kernel kernel) = 0;
   /// From a backend with clocks on its device, once the time of an earlier call is known.
   virtual void kernel_measured(Kernel kernel, double seconds) = 0;
-  /// The same of a transfer. Its time is part of the stage's, and, where a kernel waits for it to
-  /// go on, of that kernel's too: it is never to be added to either.
+  /// The same of a transfer. Its time is part of the stage's or between those of a computation in
+  /// one go, and of the kernel's that waits for it to go on: it is never to be added to any.
   virtual void transfer_measured(Transfer, std::size_t /*bytes*/, double /*seconds*/) {}
 };
 

@@ -81,6 +81,7 @@ void add_header(std::size_t levels, Rows* rows) {
   rows->add("computation_s");
   rows->add("total_s");
   rows->add("read_s");
+  rows->add("between_stages_s");
   for (std::size_t i = 0; i < stage_count; ++i) {
     const auto stage = static_cast<Stage>(i);
     if (within_frames(stage)) rows->add(fmt::format("stage_{}_s", name(stage)));
@@ -133,6 +134,7 @@ void add_times(const FrameRecord& frame, Rows* rows) {
   rows->add(times.computation_s());
   rows->add(times.total_s());
   rows->add(times.read_s);
+  times.between_s != 0 ? rows->add(times.between_s) : rows->add_empty(1);
   for (std::size_t i = 0; i < stage_count; ++i) {
     if (!within_frames(static_cast<Stage>(i))) continue;
     times.stage_calls[i] > 0 ? rows->add(times.stage_s[i]) : rows->add_empty(1);

@@ -171,7 +171,11 @@ void put_measured(const TimeFigures& figures, Json* json, Reasons* absent) {
     kernels[std::string(name(kernel.kernel))] = one;
   }
   (*json)["stages"] = stages;
-  if (figures.between) (*json)["between_stages"] = json_of(*figures.between);
+  if (figures.between) {
+    (*json)["between_stages"] = json_of(*figures.between);
+  } else {
+    explain(absent, "time.between_stages", "no frame was computed in one go: stages are all");
+  }
   (*json)["kernels"] = kernels;
   if (!figures.transfers.empty()) {
     (*json)["transfers"] = transfers_json(figures.transfers);
@@ -200,8 +204,8 @@ Json time_json(const Record& r, Reasons* absent) {
   if (figures.measured_frames > 0) {
     put_measured(figures, &json, absent);
   } else {
-    for (const char* key :
-         {"computation_s", "total_s", "read_s", "stages", "kernels", "transfers"}) {
+    for (const char* key : {"computation_s", "total_s", "read_s", "stages", "between_stages",
+                            "kernels", "transfers"}) {
       explain(absent, fmt::format("time.{}", key), "no frame was processed after the warm-up");
     }
   }

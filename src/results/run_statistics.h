@@ -37,7 +37,7 @@ struct KernelFigures {
   double seconds_per_call = 0;
 };
 
-/// What went one way between host and device. Its time is part of the stages' (and kernels').
+/// What went one way between host and device. Its time is part of the stages' or of `between`.
 struct TransferFigures {
   Transfer direction = Transfer::to_device;
   FrameSeconds seconds;

@@ -101,9 +101,14 @@ void list_stages(const TimeFigures& figures, Page* page) {
   for (const StageFigures& stage : figures.stages) {
     page->line(stage_row(name(stage.stage), stage.seconds, share_text(stage.share)));
   }
-  if (figures.between) page->line(stage_row("(between)", *figures.between, "-"));
-  const auto whole = figures.computation_s.mean > 0 ? std::optional(1.0) : std::nullopt;
-  page->line(stage_row("computation", in_every_frame(figures.computation_s), share_text(whole)));
+  const double computation_s = figures.computation_s.mean;
+  const auto share = [&](double seconds) {
+    return share_text(computation_s > 0 ? std::optional(seconds / computation_s) : std::nullopt);
+  };
+  if (figures.between) {
+    page->line(stage_row("(between)", *figures.between, share(figures.between->per_frame)));
+  }
+  page->line(stage_row("computation", in_every_frame(figures.computation_s), share(computation_s)));
   page->line(stage_row("total", in_every_frame(figures.total_s), "-"));
   if (figures.between) {
     page->line("(stages as the device timed their kernels; between: launching and waiting)");
@@ -125,7 +130,7 @@ void list_transfers(const TimeFigures& figures, Page* page) {
                            t.count_per_frame, t.bytes_per_frame / bytes_per_kib,
                            std::isfinite(rate) ? fmt::format("{:.2f}", rate) : "-"));
   }
-  page->line("(part of the stages' times above, and never added to them)");
+  page->line("(part of the times above, and never added to them)");
 }
 
 void tell_speed(const Record& r, const TimeFigures& figures, Page* page) {

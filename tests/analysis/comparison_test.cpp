@@ -254,6 +254,21 @@ TEST(CompareDocuments, ShowTheDigitsInWhichErrorsDiffer) {
   EXPECT_THAT(comparison_markdown({c}), AllOf(HasSubstr("2.15040"), HasSubstr("2.15043")));
 }
 
+TEST(CompareDocuments, SayWhereStagesOfOneSideAreTheDevicesTimes) {
+  NoisyMachine machine(14);
+  Record in_one_go = machine.run(1);
+  for (FrameRecord& frame : in_one_go.frames) frame.times.between_s = 1e-3;
+  const RunGroup a{"a", {stored(machine.run(1))}}, b{"b", {stored(in_one_go)}};
+  EXPECT_EQ(value_of(find_figure("between_stages_s")->place, b.runs.front()), 1e-3);
+  const auto remark = ContainsRegex("Stages of b are .* those of a\\s+wall");
+  EXPECT_THAT(comparison_text({compare(a, b, {})}), remark);
+  EXPECT_THAT(comparison_markdown({compare(b, a, {})}), remark);
+  const auto none = Not(HasSubstr("Stages of"));
+  EXPECT_THAT(comparison_text({compare(a, a, {})}), none);
+  EXPECT_THAT(comparison_text({compare(b, b, {})}), AllOf(none, HasSubstr("between_stages")));
+  EXPECT_THAT(comparison_text({compare(a, b, {.figures = {"computation_s"}})}), none);
+}
+
 TEST(CompareViolations, CountRatiosOnlyBeyondTheirInterval) {
   const Two two = interleaved(3, 1.1, 10);
   const Comparison c = compare(two.base, two.other, {});

@@ -67,6 +67,21 @@ TEST_F(TraceTest, ProcessingBeginsWhenItDid) {
   EXPECT_EQ(end(frames[1]), 1005e6 + 0.984375e6 - acquire.at("dur").get<double>());
 }
 
+TEST_F(TraceTest, FramesInOneGoTakeTheirWholeComputation) {
+  Record record = single_record();
+  record.frames[1].times.between_s = 0.25;
+  const Json all = trace({record});
+  const auto frames = slices(all, "frame"), stages = slices(all, "stage");
+  EXPECT_EQ(frames[1].at("dur"), (0.984375 + 0.25) * 1e6);
+  EXPECT_EQ(frames[1].at("args").at("between_stages_s"), 0.25);
+  const Json raycast = stages[10], render = stages[11];
+  EXPECT_EQ(begin(render), end(raycast) + 0.25e6);
+  EXPECT_EQ(end(render), end(frames[1]));
+  EXPECT_EQ(frames[2].at("dur"), 3 * 0.984375e6) << "has nothing between";
+  EXPECT_FALSE(frames[2].at("args").contains("between_stages_s"));
+  EXPECT_THAT(all.at("otherData").at("r0"), HasSubstr("the gap before drawing"));
+}
+
 TEST_F(TraceTest, StagesLieInFramesAndKernelsInStages) {
   const Json all = trace({single_record()});
   const auto frames = slices(all, "frame"), stages = slices(all, "stage"),
@@ -94,7 +109,8 @@ TEST_F(TraceTest, StagesLieInFramesAndKernelsInStages) {
   EXPECT_EQ(kernels[6].at("dur"), 0.0625e6);
   EXPECT_EQ(kernels[6].at("args").at("calls"), 4);
   EXPECT_THAT(all.at("otherData").at("r0"),
-              AllOf(HasSubstr("these places are not"), Not(HasSubstr("end to end"))));
+              AllOf(HasSubstr("these places are not"), Not(HasSubstr("end to end")),
+                    Not(HasSubstr("in one go"))));
 }
 
 TEST_F(TraceTest, DroppedFramesAreMarkedWhereTheyWereFoundTooLate) {

@@ -95,7 +95,7 @@ total           2625.000       3  2953.125  3839.062  3917.812  3937.500       -
 transfers            ms a frame    median       a frame  KiB a frame       GiB/s
 to the device            41.667    46.875          1.00        1.000        0.00
 to the host              41.667    62.500          2.00        0.250        0.00
-(part of the stages' times above, and never added to them)
+(part of the times above, and never added to them)
 
 over 3 runs)"));
 }
@@ -105,7 +105,7 @@ TEST(SummaryText, TellsWhatLiesBetweenStagesOfFramesInOneGo) {
   for (FrameRecord& frame : record.frames) frame.times.between_s = frame.dropped ? 0 : 0.5;
   const std::string text = summary_text(record, "", false);
   EXPECT_THAT(text, HasSubstr("(between)        500.000       3   500.000   500.000   500.000   "
-                              "500.000       -\ncomputation "));
+                              "500.000  28.6 %\ncomputation "));
   EXPECT_THAT(text, HasSubstr("timed their kernels; between: launching and waiting)\n"));
 }
 

@@ -290,12 +290,15 @@ TEST(RecordJson, HasWhatLiesBetweenStagesWhereFramesWereComputedInOneGo) {
   Record record = sample_record();
   const json without = json::parse(record_json(record));
   EXPECT_FALSE(without["time"].contains("between_stages"));
+  EXPECT_EQ(without["absent"]["time.between_stages"],
+            "no frame was computed in one go: stages are all");
   for (const std::size_t frame : {3u, 4u}) record.frames[frame].times.between_s = 0.5;
   const json document = json::parse(record_json(record));
   EXPECT_EQ(schema_errors(document), "");
   const json& between = document["time"]["between_stages"];
   EXPECT_EQ(between["seconds_per_frame"], 1.0 / 3);  // of frames 1, 3 and 4
   EXPECT_EQ(between["seconds"]["count"], 2);
+  EXPECT_FALSE(document["absent"].contains("time.between_stages"));
   EXPECT_EQ(document["time"]["stages"]["track"]["seconds"],
             without["time"]["stages"]["track"]["seconds"]);
   for (const char* figure : {"computation_s", "total_s"}) {
@@ -356,7 +359,8 @@ TEST(FramesCsv, IsTheLiteralTextOfASmallRecord) {
       "index,time_s,dropped,warmup,tracked,integrated,x_m,y_m,z_m,qx,qy,qz,qw,"
       "error_first_pose_m,error_se3_m,inliers,inlier_fraction,residual_m,"
       "iterations_level0,iterations_level1,start_s,process_start_s,computation_s,total_s,read_s,"
-      "stage_acquire_s,stage_preprocess_s,stage_track_s,stage_integrate_s,stage_raycast_s,"
+      "between_stages_s,stage_acquire_s,stage_preprocess_s,stage_track_s,stage_integrate_s,stage_"
+      "raycast_s,"
       "stage_render_s,kernel_acquire_s,kernel_acquire_calls,kernel_mm2meters_s,"
       "kernel_mm2meters_calls,kernel_bilateral_filter_s,kernel_bilateral_filter_calls,"
       "kernel_half_sample_s,kernel_half_sample_calls,kernel_depth2vertex_s,"
@@ -368,13 +372,21 @@ TEST(FramesCsv, IsTheLiteralTextOfASmallRecord) {
       "kernel_render_volume_s,kernel_render_volume_calls,"
       "transfer_to_device_s,transfer_to_device_bytes,transfer_to_device_count,"
       "transfer_to_host_s,transfer_to_host_bytes,transfer_to_host_count\r\n"
-      "0,0,0,1,0,1,0,0,0,0,0,0,1,,,,,,,,0,0,468.75,984.375,7.8125,15.625,31.25,62.5,125,250,500,"
+      "0,0,0,1,0,1,0,0,0,0,0,0,1,,,,,,,,0,0,468.75,984.375,7.8125,,15.625,31.25,62.5,125,250,500,"
       "15.625,1,31.25,1,,0,,0,,0,,0,62.5,4,,0,,0,,0,125,1,,0,,0,,0,,0,,,0,,,0\r\n"
       "1,0.5,0,0,1,1,1,-0.25,0.5,0,0,0,1,0.0625,0.125,1000,0.5,0.001,4,3,1004,0,0.46875,0.984375,0."
-      "0078125,"
+      "0078125,,"
       "0.015625,0.03125,0.0625,0.125,0.25,0.5,"
       "0.015625,1,0.03125,1,,0,,0,,0,,0,0.0625,4,,0,,0,,0,0.125,1,,0,,0,,0,,0,,,0,,,0\r\n"
-      "2,1,1,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,\r\n");
+      "2,1,1,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,\r\n");
+}
+
+TEST(FramesCsv, TellsFramesThatWereComputedInOneGo) {
+  Record record = sample_record();
+  record.frames[3].times.between_s = 0.5;
+  const std::string csv = frames_csv(record);
+  EXPECT_EQ(field(csv, 3, "between_stages_s"), "0.5");
+  EXPECT_EQ(field(csv, 4, "between_stages_s"), "");
 }
 
 TEST(FramesCsv, HasTransfersWhereThereWereAny) {

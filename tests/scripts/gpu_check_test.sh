@@ -33,4 +33,7 @@ expect 2 "--limit: found 'soon'" a.raw --limit soon
 expect 2 '--backend: found nothing' a.raw --backend
 mkdir debs
 expect 4 'found no .deb file in debs' a.raw --debs debs --out out-folder --build build
+# 8 seconds, not an octal number; they have passed.
+SECONDS=100 expect 1 'NOT RUN  no time left' a.raw --limit 08 --backend serial --out out-folder \
+  --build build
 echo "gpu-check says what it finds"

@@ -214,6 +214,12 @@ function timeChart(colors) {
         y: f.stages_ms[stage].map((ms) => ms ?? 0), line: {width: 0, color: stageColors[stage]}, fillcolor: stageColors[stage],
         hovertemplate: `frame %{x}, <b>${stage}</b> %{y:.3f} ms<extra></extra>`});
     }
+    if (detailed[0].record.time.between_stages) {
+      const inStages = (row) => computation.reduce((sum, stage) => sum + (f.stages_ms[stage]?.[row] ?? 0), 0);
+      traces.push({type: "scatter", mode: "lines", stackgroup: "stages", name: "between", x: f.index,
+        y: f.computation_ms.map((ms, row) => Math.max(0, (ms ?? 0) - inStages(row))), line: {width: 0, color: colors.line}, fillcolor: colors.line,
+        hovertemplate: "frame %{x}, launching and waiting %{y:.3f} ms<extra></extra>"});
+    }
   } else {
     detailed.forEach((run) => traces.push({type: "scatter", mode: "lines", name: label(nameOf(run)), connectgaps: true,
       x: run.frames.index, y: run.frames.computation_ms, line: {width: 1.3, color: colorOf(run)},
