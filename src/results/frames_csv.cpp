@@ -159,7 +159,7 @@ void add_times(const FrameRecord& frame, Rows* rows) {
 std::size_t time_column_count() {
   std::size_t kernels = 0;
   for (const KernelInfo& kernel : kernel_table()) kernels += within_frames(kernel.stage) ? 1 : 0;
-  return 5 + (stage_count - 1) + 2 * kernels + 3 * transfer_count;
+  return 6 + (stage_count - 1) + 2 * kernels + 3 * transfer_count;
 }
 
 }  // namespace
