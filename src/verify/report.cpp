@@ -236,8 +236,10 @@ reference, the `serial` backend on the `grid` map. The same program runs as test
 - **Repeatability**: a second instance of the backend, with another number of threads where it has
   threads, must give the same bits.
 - **State**: volumes are changed between two looks from the same place: nothing may be remembered.
-- **`pipeline`** runs KinectFusion over a dozen frames, pictures included, and compares the poses: once
-  kernel by kernel, and once fused, where one frame is blank, so that tracking is lost and found again.
+- **`pipeline`** runs KinectFusion over a dozen frames, pictures included, and compares the poses:
+  once kernel by kernel, and once fused, where half of one frame is nearer than the map says.
+  Tracking is lost there and found again, and were the lost frame integrated, the poses behind it
+  would differ.
 - **`memory`** writes images and volumes and reads them back.
 
 The reference is compared with nothing; tests of its own hold it against closed-form answers.
