@@ -97,12 +97,7 @@ RaycastParameters KernelBench::view() const {
 }
 
 AlignInput KernelBench::align_input() {
-  AlignInput input;
-  for (std::size_t level = 0; level < vertices_.size(); ++level) {
-    input.vertices.push_back(&vertices_[level]);
-    input.normals.push_back(&normals_[level]);
-    input.rows.push_back(&rows_[level]);
-  }
+  AlignInput input = slambench::align_input(vertices_, normals_, rows_);
   input.model_vertices = &model_vertices_;
   input.model_normals = &model_normals_;
   input.iterations = p_.pyramid_levels;

@@ -55,6 +55,16 @@ MapKind map_from_name(std::string_view name) {
   throw UsageError("--map: found '" + std::string(name) + "', expected one of " + known);
 }
 
+AlignInput align_input(const std::vector<DeviceImage<Float3>>& vertices,
+                       const std::vector<DeviceImage<Float3>>& normals,
+                       std::vector<DeviceImage<TrackData>>& rows) {
+  AlignInput input;
+  for (const auto& image : vertices) input.vertices.push_back(&image);
+  for (const auto& image : normals) input.normals.push_back(&image);
+  for (auto& image : rows) input.rows.push_back(&image);
+  return input;
+}
+
 Rigid3f to_rigid3f(const Pose& pose) {
   const Eigen::Matrix3d r = pose.linear();
   return {to_float3(r.row(0)), to_float3(r.row(1)), to_float3(r.row(2)),

@@ -80,6 +80,11 @@ struct AlignResult {
   std::vector<int> iterations;  ///< done, per level
 };
 
+/// Of these levels; the rest is still to be said.
+AlignInput align_input(const std::vector<DeviceImage<Float3>>& vertices,
+                       const std::vector<DeviceImage<Float3>>& normals,
+                       std::vector<DeviceImage<TrackData>>& rows);
+
 /// A frame from its alignment to the next model. The poses of `integrate` and `raycast` are not
 /// looked at: both are done where the alignment says.
 struct AdvanceInput {

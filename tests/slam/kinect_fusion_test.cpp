@@ -68,10 +68,10 @@ class Pipeline : public ::testing::Test {
   KinectFusionParameters p_;
 };
 
-void expect_translation(const Rigid3f& transform, double x, double y, double z) {
-  EXPECT_NEAR(transform.translation.x, x, 1e-6);
-  EXPECT_NEAR(transform.translation.y, y, 1e-6);
-  EXPECT_NEAR(transform.translation.z, z, 1e-6);
+void expect_translation(const Rigid3f& transform, const Eigen::Vector3d& expected) {
+  EXPECT_NEAR(transform.translation.x, expected.x(), 1e-6);
+  EXPECT_NEAR(transform.translation.y, expected.y(), 1e-6);
+  EXPECT_NEAR(transform.translation.z, expected.z(), 1e-6);
 }
 
 // --- what is asked -------------------------------------------------------------------------------
@@ -136,8 +136,8 @@ TEST_F(Pipeline, AlignsWithTheConfiguredThresholds) {
   ASSERT_EQ(asked.normals.size(), 3u);
   ASSERT_EQ(asked.rows.size(), 3u);
   EXPECT_TRUE(asked.T_volume_camera.translation().isApprox(Eigen::Vector3d(0.5, 1.5, 3)));
-  expect_translation(asked.parameters.T_volume_camera, 0.5, 1.5, 3);
-  expect_translation(asked.parameters.T_model_volume, -0.5, -1.5, -3);
+  expect_translation(asked.parameters.T_volume_camera, {0.5, 1.5, 3});
+  expect_translation(asked.parameters.T_model_volume, {-0.5, -1.5, -3});
 }
 
 /// The model is where it was raycast from: the pose of the frame before.
@@ -167,7 +167,7 @@ TEST_F(Pipeline, IntegratesAsConfigured) {
   EXPECT_EQ(backend_.integrated->max_weight, 50.0f);
   EXPECT_EQ(backend_.integrated->min_depth_m, 0.01f);
   EXPECT_EQ(backend_.integrated->camera, (Intrinsics{10, 11, 6, 4}));
-  expect_translation(backend_.integrated->T_camera_volume, -0.5, -1.5, -3);
+  expect_translation(backend_.integrated->T_camera_volume, {-0.5, -1.5, -3});
 }
 
 TEST_F(Pipeline, IntegratesTheUnfilteredDepth) {
@@ -180,9 +180,7 @@ TEST_F(Pipeline, IntegratesTheUnfilteredDepth) {
 TEST_F(Pipeline, IntegratesAtTheTrackedPose) {
   KinectFusion fusion = make();
   process_fifth(fusion);
-  const Eigen::Vector3d expected = answered_pose().inverse().translation();
-  expect_translation(backend_.integrated->T_camera_volume, expected.x(), expected.y(),
-                     expected.z());
+  expect_translation(backend_.integrated->T_camera_volume, answered_pose().inverse().translation());
 }
 
 /// Small steps are the smallest edge over the largest resolution: 2 m / 16, times the factor.
@@ -202,8 +200,7 @@ TEST_F(Pipeline, RaycastsAsConfigured) {
   EXPECT_FLOAT_EQ(backend_.raycasted->small_step_m, 0.25f);
   EXPECT_EQ(backend_.raycasted->slow_below, 0.6f);
   EXPECT_EQ(backend_.raycasted->camera, camera);
-  const Eigen::Vector3d expected = answered_pose().translation();
-  expect_translation(backend_.raycasted->T_volume_camera, expected.x(), expected.y(), expected.z());
+  expect_translation(backend_.raycasted->T_volume_camera, answered_pose().translation());
 }
 
 TEST_F(Pipeline, RendersAsConfigured) {
@@ -579,8 +576,7 @@ TEST_F(InOneGo, GoesOnFromTheAlignedPose) {
   process(fusion);
   const AlignInput& asked = backend_.advance_input->align;
   EXPECT_TRUE(asked.T_volume_camera.isApprox(answered_pose()));
-  const Eigen::Vector3d model = answered_pose().inverse().translation();
-  expect_translation(asked.parameters.T_model_volume, model.x(), model.y(), model.z());
+  expect_translation(asked.parameters.T_model_volume, answered_pose().inverse().translation());
 }
 
 /// Whatever the figures say: the kernels behind the alignment have gone by the same word.
