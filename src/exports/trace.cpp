@@ -35,8 +35,7 @@ constexpr const char* laid_out =
     "these places are not.";
 constexpr const char* in_one_go =
     "Frames were computed in one go: there a stage is as long as its kernels, by the device's "
-    "clock, "
-    "and the rest of the computation's wall time is the gap before drawing.";
+    "clock, and the rest of the computation's wall time is the gap before drawing.";
 constexpr const char* no_starts =
     "This result folder does not have the times at which frames began: they are laid end to end.";
 constexpr const char* own_track =
@@ -82,7 +81,9 @@ class Frames {
     return length(fmt::format("stage_{}_s", name(stage)), row);
   }
   /// Of the computation, in no stage.
-  Nanoseconds between(std::size_t row) const { return length("between_stages_s", row).value_or(0); }
+  Nanoseconds between_stages(std::size_t row) const {
+    return length("between_stages_s", row).value_or(0);
+  }
   std::optional<Nanoseconds> kernel(Kernel kernel, std::size_t row) const {
     return length(fmt::format("kernel_{}_s", name(kernel)), row);
   }
@@ -192,8 +193,8 @@ class RunTrace {
   /// Returns its end. `before` is that of the frame before.
   Nanoseconds add_frame(const Frames& frames, std::size_t row, Nanoseconds before) {
     const auto [begin, processed] = starts(frames, row, before);
-    const Nanoseconds between = frames.between(row);
-    Nanoseconds end = processed + between;
+    const Nanoseconds between_stages = frames.between_stages(row);
+    Nanoseconds end = processed + between_stages;
     for (const Stage stage : stages) {
       if (stage != Stage::acquire) end += frames.stage(stage, row).value_or(0);
     }
@@ -208,7 +209,7 @@ class RunTrace {
     Nanoseconds at = begin;
     for (const Stage stage : stages) {
       if (stage == Stage::preprocess) at = processed;
-      if (stage == Stage::render) at += between;
+      if (stage == Stage::render) at += between_stages;
       const auto taken = frames.stage(stage, row);
       if (taken) add_slice("stage", std::string(name(stage)), pipeline_thread, at, *taken, {});
       add_kernels(frames, row, stage, at, at + taken.value_or(0));

@@ -25,16 +25,16 @@ class Observer {
   virtual void stage_end(Stage stage) = 0;
   /// Around preprocess to raycast of a frame that a backend computes before anybody waits. None of
   /// these stages is told of: what is measured of its kernels is what there is of a stage's time.
-  virtual void computation_begin() {}
-  virtual void computation_end() {}
+  virtual void in_one_go_begin() = 0;
+  virtual void in_one_go_end() = 0;
   /// Around each call of a kernel by a backend that computes before it returns.
   virtual void kernel_begin(Kernel kernel) = 0;
   virtual void kernel_end(Kernel kernel) = 0;
   /// From a backend with clocks on its device, once the time of an earlier call is known.
   virtual void kernel_measured(Kernel kernel, double seconds) = 0;
-  /// The same of a transfer. Its time is part of the stage's or between those of a computation in
-  /// one go, and of the kernel's that waits for it to go on: it is never to be added to any.
-  virtual void transfer_measured(Transfer, std::size_t /*bytes*/, double /*seconds*/) {}
+  /// The same of a transfer. Its time is part of the stage's, or in one go of what lies between
+  /// stages, and of the kernel's that waits for it to go on: it is never to be added to any.
+  virtual void transfer_measured(Transfer direction, std::size_t bytes, double seconds) = 0;
 };
 
 /// Reports a stage for as long as it lives. A null observer is told nothing.
@@ -54,17 +54,18 @@ class StageScope {
   Stage stage_;
 };
 
-/// Reports a computation in one go for as long as it lives. A null observer is told nothing.
-class ComputationScope {
+/// Reports a frame that is computed in one go for as long as it lives. A null observer is told
+/// nothing.
+class InOneGoScope {
  public:
-  explicit ComputationScope(Observer* observer) : observer_(observer) {
-    if (observer_ != nullptr) observer_->computation_begin();
+  explicit InOneGoScope(Observer* observer) : observer_(observer) {
+    if (observer_ != nullptr) observer_->in_one_go_begin();
   }
-  ~ComputationScope() {
-    if (observer_ != nullptr) observer_->computation_end();
+  ~InOneGoScope() {
+    if (observer_ != nullptr) observer_->in_one_go_end();
   }
-  ComputationScope(const ComputationScope&) = delete;
-  ComputationScope& operator=(const ComputationScope&) = delete;
+  InOneGoScope(const InOneGoScope&) = delete;
+  InOneGoScope& operator=(const InOneGoScope&) = delete;
 
  private:
   Observer* observer_;

@@ -2,11 +2,13 @@
 // SPDX-FileCopyrightText: The SLAMBench authors
 #include "meters/frame_timer.h"
 
+#include <algorithm>
+
 namespace slambench {
 
 double FrameTimes::computation_s() const {
   return stage(Stage::preprocess) + stage(Stage::track) + stage(Stage::integrate) +
-         stage(Stage::raycast) + between_s;
+         stage(Stage::raycast) + between_stages_s.value_or(0);
 }
 
 double FrameTimes::total_s() const {
@@ -27,17 +29,18 @@ void FrameTimer::stage_end(Stage stage) {
   if (stages_ != nullptr) stages_->stage_end(stage);
 }
 
-void FrameTimer::computation_begin() {
-  if (stages_ != nullptr) stages_->computation_begin();
+void FrameTimer::in_one_go_begin() {
+  if (stages_ != nullptr) stages_->in_one_go_begin();
   in_one_go_ = true;
   in_kernels_s_ = 0;
-  computation_begin_s_ = clock_.now_s();
+  in_one_go_begin_s_ = clock_.now_s();
 }
 
-void FrameTimer::computation_end() {
-  times_.between_s += clock_.now_s() - computation_begin_s_ - in_kernels_s_;
+void FrameTimer::in_one_go_end() {
+  const double rest_s = clock_.now_s() - in_one_go_begin_s_ - in_kernels_s_;
+  times_.between_stages_s = times_.between_stages_s.value_or(0) + std::max(rest_s, 0.0);
   in_one_go_ = false;
-  if (stages_ != nullptr) stages_->computation_end();
+  if (stages_ != nullptr) stages_->in_one_go_end();
 }
 
 void FrameTimer::kernel_begin(Kernel) { kernel_begin_s_ = clock_.now_s(); }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "kernels/observer.h"
 #include "meters/clock.h"
@@ -24,13 +25,15 @@ struct FrameTimes {
   std::array<int, kernel_count> kernel_calls{};
   /// By direction. They are within the stages' times, and in no sum.
   std::array<TransferTimes, transfer_count> transfers{};
-  /// Of the computation, in no stage: launching, waiting and what lies between kernels, where only
-  /// these are timed (Observer::computation_begin).
-  double between_s = 0;
+  /// Of a frame in one go (Observer::in_one_go_begin): the part of its computation that is in no
+  /// stage, launching, waiting and what lies between kernels. Never negative: 0 where the device's
+  /// clock makes the kernels longer than the wall clock makes them all. None of other frames.
+  std::optional<double> between_stages_s;
   double read_s = 0;  ///< reading the frame, on whichever thread; within `acquire` unless ahead
 
   double stage(Stage s) const { return stage_s[static_cast<std::size_t>(s)]; }
-  /// preprocess + track + integrate + raycast, as SLAMBench defines it, and between_s: wall time.
+  /// preprocess + track + integrate + raycast, as SLAMBench defines it, and between_stages_s: wall
+  /// time.
   double computation_s() const;
   /// acquire + computation + render.
   double total_s() const;
@@ -39,9 +42,9 @@ struct FrameTimes {
 /// Adds up what happens between two calls of take(), by the given clock. Kernels run within
 /// stages; there is one stage and one kernel at a time. A stage has the wall time between
 /// its begin and its end, also where the backend measures its kernels itself (kernel_measured):
-/// those times count when they arrive, and need not add up to their stage's. Only of a computation
-/// in one go they do: a stage then is its kernels, and the rest of the wall time is between_s.
-/// Transfers count when they are told of within a stage or such a computation: what happens between
+/// those times count when they arrive, and need not add up to their stage's. Only of a frame in one
+/// go they do: a stage then is its kernels, and the rest of the wall time is between_stages_s.
+/// Transfers count when they are told of within a stage or such a frame: what happens between
 /// stages (pictures that are saved) is no frame's.
 class FrameTimer final : public Observer {
  public:
@@ -51,8 +54,8 @@ class FrameTimer final : public Observer {
 
   void stage_begin(Stage stage) override;
   void stage_end(Stage stage) override;
-  void computation_begin() override;
-  void computation_end() override;
+  void in_one_go_begin() override;
+  void in_one_go_end() override;
   void kernel_begin(Kernel kernel) override;
   void kernel_end(Kernel kernel) override;
   void kernel_measured(Kernel kernel, double seconds) override;
@@ -65,8 +68,8 @@ class FrameTimer final : public Observer {
   const Clock& clock_;
   Observer* const stages_;
   FrameTimes times_;
-  double stage_begin_s_ = 0, kernel_begin_s_ = 0, computation_begin_s_ = 0;
-  double in_kernels_s_ = 0;  ///< of the computation in one go
+  double stage_begin_s_ = 0, kernel_begin_s_ = 0, in_one_go_begin_s_ = 0;
+  double in_kernels_s_ = 0;  ///< of the frame in one go
   bool in_stage_ = false, in_one_go_ = false;
 };
 

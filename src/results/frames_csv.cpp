@@ -134,7 +134,7 @@ void add_times(const FrameRecord& frame, Rows* rows) {
   rows->add(times.computation_s());
   rows->add(times.total_s());
   rows->add(times.read_s);
-  times.between_s != 0 ? rows->add(times.between_s) : rows->add_empty(1);
+  rows->add(times.between_stages_s);
   for (std::size_t i = 0; i < stage_count; ++i) {
     if (!within_frames(static_cast<Stage>(i))) continue;
     times.stage_calls[i] > 0 ? rows->add(times.stage_s[i]) : rows->add_empty(1);

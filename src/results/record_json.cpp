@@ -171,8 +171,8 @@ void put_measured(const TimeFigures& figures, Json* json, Reasons* absent) {
     kernels[std::string(name(kernel.kernel))] = one;
   }
   (*json)["stages"] = stages;
-  if (figures.between) {
-    (*json)["between_stages"] = json_of(*figures.between);
+  if (figures.between_stages) {
+    (*json)["between_stages"] = json_of(*figures.between_stages);
   } else {
     explain(absent, "time.between_stages", "no frame was computed in one go: stages are all");
   }

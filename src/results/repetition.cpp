@@ -44,9 +44,9 @@ void add_times(const Record& record, Collector* to) {
     to->add(fmt::format("time.stages.{}.seconds_per_frame", name(stage.stage)), "s",
             stage.seconds.per_frame, stage.seconds.when_it_ran.std);
   }
-  if (times.between) {
-    to->add("time.between_stages.seconds_per_frame", "s", times.between->per_frame,
-            times.between->when_it_ran.std);
+  if (times.between_stages) {
+    to->add("time.between_stages.seconds_per_frame", "s", times.between_stages->per_frame,
+            times.between_stages->when_it_ran.std);
   }
   for (const KernelFigures& kernel : times.kernels) {
     to->add(fmt::format("time.kernels.{}.seconds_per_frame", name(kernel.kernel)), "s",

@@ -48,7 +48,7 @@ FrameSeconds frame_seconds(const std::vector<const FrameTimes*>& frames, std::si
 std::optional<FrameSeconds> between_stages(const std::vector<const FrameTimes*>& frames) {
   std::vector<double> values;
   for (const FrameTimes* times : frames) {
-    if (times->between_s != 0) values.push_back(times->between_s);
+    if (times->between_stages_s) values.push_back(*times->between_stages_s);
   }
   if (values.empty()) return std::nullopt;
   return frame_seconds(values, frames.size());
@@ -99,7 +99,7 @@ std::optional<TransferFigures> transfer_figures(Transfer direction,
 
 bool all_finite(const FrameTimes& times) {
   const auto finite = [](double s) { return std::isfinite(s); };
-  return finite(times.between_s) &&
+  return finite(times.between_stages_s.value_or(0)) &&
          std::all_of(times.stage_s.begin(), times.stage_s.end(), finite) &&
          std::all_of(times.kernel_s.begin(), times.kernel_s.end(), finite) &&
          std::all_of(times.transfers.begin(), times.transfers.end(),
@@ -152,7 +152,7 @@ TimeFigures time_figures(const Record& record) {
         frame_seconds(measured, i, &FrameTimes::stage_s, &FrameTimes::stage_calls);
     figures.stages.push_back({stage, seconds, share_of(stage, seconds, figures.computation_s)});
   }
-  figures.between = between_stages(measured);
+  figures.between_stages = between_stages(measured);
   for (const KernelInfo& kernel : kernel_table()) {
     if (auto k = kernel_figures(kernel, measured, figures.computation_s)) {
       figures.kernels.push_back(*k);

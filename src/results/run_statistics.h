@@ -37,7 +37,8 @@ struct KernelFigures {
   double seconds_per_call = 0;
 };
 
-/// What went one way between host and device. Its time is part of the stages' or of `between`.
+/// What went one way between host and device. Its time is part of the stages' or of
+/// `between_stages`.
 struct TransferFigures {
   Transfer direction = Transfer::to_device;
   FrameSeconds seconds;
@@ -51,8 +52,8 @@ struct TimeFigures {
   Statistics computation_s, total_s;  ///< as the paper defines them (meters/frame_timer.h)
   Statistics read_s;                  ///< reading a frame, on whichever thread
   std::vector<StageFigures> stages;   ///< in pipeline order, without start-up
-  /// Of the computation, in no stage (FrameTimes::between_s); none where stages are all of it.
-  std::optional<FrameSeconds> between;
+  /// Of the computation, in no stage (FrameTimes::between_stages_s); none where stages are all.
+  std::optional<FrameSeconds> between_stages;
   std::vector<KernelFigures> kernels;      ///< those called in a measured frame, in pipeline order
   std::vector<TransferFigures> transfers;  ///< by direction; none where none was measured
   std::optional<double> fps_computation;   ///< 1 / mean computation

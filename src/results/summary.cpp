@@ -83,7 +83,7 @@ std::string ms_text(double seconds) {
 std::string stage_row(std::string_view what, const FrameSeconds& seconds,
                       const std::string& share) {
   const Statistics& s = seconds.when_it_ran;
-  std::string row = fmt::format("{:<13}{:>11}{:>8}", what, ms_text(seconds.per_frame), s.count);
+  std::string row = fmt::format("{:<14}{:>10}{:>8}", what, ms_text(seconds.per_frame), s.count);
   for (const double figure : {s.median, s.p95, s.p99, s.max}) {
     row += fmt::format("{:>10}", s.count > 0 ? ms_text(figure) : "-");
   }
@@ -95,7 +95,7 @@ FrameSeconds in_every_frame(const Statistics& seconds) { return {seconds.mean, s
 
 void list_stages(const TimeFigures& figures, Page* page) {
   page->gap();
-  page->line(fmt::format("{:<13}{:>11}{:>8}{:>10}{:>10}{:>10}{:>10}{:>8}", "stage", "ms a frame",
+  page->line(fmt::format("{:<14}{:>10}{:>8}{:>10}{:>10}{:>10}{:>10}{:>8}", "stage", "ms a frame",
                          "frames", "median", "p95", "p99", "max", "share"),
              Look::heading);
   for (const StageFigures& stage : figures.stages) {
@@ -105,13 +105,14 @@ void list_stages(const TimeFigures& figures, Page* page) {
   const auto share = [&](double seconds) {
     return share_text(computation_s > 0 ? std::optional(seconds / computation_s) : std::nullopt);
   };
-  if (figures.between) {
-    page->line(stage_row("(between)", *figures.between, share(figures.between->per_frame)));
+  if (figures.between_stages) {
+    page->line(stage_row("between_stages", *figures.between_stages,
+                         share(figures.between_stages->per_frame)));
   }
   page->line(stage_row("computation", in_every_frame(figures.computation_s), share(computation_s)));
   page->line(stage_row("total", in_every_frame(figures.total_s), "-"));
-  if (figures.between) {
-    page->line("(stages as the device timed their kernels; between: launching and waiting)");
+  if (figures.between_stages) {
+    page->line("(stages as the device timed their kernels; between_stages: launching, waiting)");
   }
 }
 

@@ -158,7 +158,7 @@ void KinectFusion::raycast() {
 
 // There is a model only behind the first frames: their rules are none of these.
 void KinectFusion::advance(const Frame& frame, FrameResult* result) {
-  const ComputationScope scope(observer_);
+  const InOneGoScope scope(observer_);
   filter_depth(frame);
   build_pyramid();
   AdvanceInput input{align_input(),    p_.solve_condition, limits(),      &volume_, &depth_m_, {},

@@ -82,9 +82,8 @@ ParameterList KinectFusionParameters::describe() {
            0,
            0,
            "kernels share work where the backend can: the alignment runs as one, a tracked frame "
-           "is "
-           "computed with a single wait, and the volume is drawn from the raycast of the same view "
-           "instead of casting its rays again",
+           "is computed in one go, and the volume is drawn from the raycast of the same "
+           "view instead of casting its rays again",
            {},
            ParameterRole::implementation},
       },

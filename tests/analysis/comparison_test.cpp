@@ -257,7 +257,7 @@ TEST(CompareDocuments, ShowTheDigitsInWhichErrorsDiffer) {
 TEST(CompareDocuments, SayWhereStagesOfOneSideAreTheDevicesTimes) {
   NoisyMachine machine(14);
   Record in_one_go = machine.run(1);
-  for (FrameRecord& frame : in_one_go.frames) frame.times.between_s = 1e-3;
+  for (FrameRecord& frame : in_one_go.frames) frame.times.between_stages_s = 1e-3;
   const RunGroup a{"a", {stored(machine.run(1))}}, b{"b", {stored(in_one_go)}};
   EXPECT_TRUE(value_of(find_figure("between_stages_s")->place, b.runs.front()));
   const auto remark = ContainsRegex("Stages of b are .* those of a\\s+wall");

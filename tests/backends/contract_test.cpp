@@ -105,9 +105,14 @@ class Journal : public Observer {
  public:
   void stage_begin(Stage stage) override { add("+", name(stage)); }
   void stage_end(Stage stage) override { add("-", name(stage)); }
+  void in_one_go_begin() override { add("+", "in one go"); }
+  void in_one_go_end() override { add("-", "in one go"); }
   void kernel_begin(Kernel kernel) override { add("+", name(kernel)); }
   void kernel_end(Kernel kernel) override { add("-", name(kernel)); }
   void kernel_measured(Kernel kernel, double) override { add("=", name(kernel)); }
+  void transfer_measured(Transfer direction, std::size_t, double) override {
+    add("=", name(direction));
+  }
   std::vector<std::string> entries;
 
  private:

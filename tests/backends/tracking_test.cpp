@@ -277,9 +277,12 @@ class Listener : public Observer {
  public:
   void stage_begin(Stage) override {}
   void stage_end(Stage) override {}
+  void in_one_go_begin() override {}
+  void in_one_go_end() override {}
   void kernel_begin(Kernel kernel) override { kernels.push_back(kernel); }
   void kernel_end(Kernel) override { ++ended; }
   void kernel_measured(Kernel, double) override { ADD_FAILURE() << "serial has no device clock"; }
+  void transfer_measured(Transfer, std::size_t, double) override { ADD_FAILURE(); }
   std::vector<Kernel> kernels;
   std::size_t ended = 0;
 };

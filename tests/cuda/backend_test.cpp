@@ -33,6 +33,8 @@ struct CudaBackend : ::testing::Test {
 struct Measured : Observer {
   void stage_begin(Stage) override {}
   void stage_end(Stage) override {}
+  void in_one_go_begin() override {}
+  void in_one_go_end() override {}
   void kernel_begin(Kernel kernel) override { ++from_outside[kernel]; }
   void kernel_end(Kernel) override {}
   void kernel_measured(Kernel kernel, double) override { ++by_itself[kernel]; }

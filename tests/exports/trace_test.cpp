@@ -69,7 +69,7 @@ TEST_F(TraceTest, ProcessingBeginsWhenItDid) {
 
 TEST_F(TraceTest, FramesInOneGoTakeTheirWholeComputation) {
   Record record = single_record();
-  record.frames[1].times.between_s = 0.25;
+  record.frames[1].times.between_stages_s = 0.25;
   const Json all = trace({record});
   const auto frames = slices(all, "frame"), stages = slices(all, "stage");
   EXPECT_EQ(frames[1].at("dur"), (0.984375 + 0.25) * 1e6);

@@ -91,9 +91,9 @@ TEST_F(FrameTimerTest, KernelsMeasuredElsewhereLeaveTheStageItsWallTime) {
 
 /// Nobody waits between the stages of such a frame: a stage is its kernels, and the wall time of
 /// all of it is the computation's.
-TEST_F(FrameTimerTest, StagesOfAComputationInOneGoAreTheirKernels) {
+TEST_F(FrameTimerTest, StagesOfAFrameInOneGoAreTheirKernels) {
   {
-    const ComputationScope computation(&timer_);
+    const InOneGoScope scope(&timer_);
     clock_.advance(10);
     timer_.kernel_measured(Kernel::bilateral_filter, 1);
     timer_.kernel_measured(Kernel::vertex2normal, 2);
@@ -110,10 +110,27 @@ TEST_F(FrameTimerTest, StagesOfAComputationInOneGoAreTheirKernels) {
   EXPECT_EQ(times.stage_calls[static_cast<std::size_t>(Stage::track)], 1);
   EXPECT_EQ(times.stage_calls[static_cast<std::size_t>(Stage::integrate)], 0);
   EXPECT_EQ(calls(times, Kernel::raycast), 2);
-  EXPECT_DOUBLE_EQ(times.between_s, 2.5);
+  EXPECT_DOUBLE_EQ(times.between_stages_s.value(), 2.5);
   EXPECT_DOUBLE_EQ(times.computation_s(), 10);
   EXPECT_EQ(times.transfers[0].bytes, 1000u);
   EXPECT_EQ(timer_.take().computation_s(), 0);
+}
+
+/// Two clocks need not agree: what they make of nothing is not a negative time.
+TEST_F(FrameTimerTest, KernelsLongerThanTheWallClockLeaveNothingBetweenStages) {
+  {
+    const InOneGoScope scope(&timer_);
+    clock_.advance(1);
+    timer_.kernel_measured(Kernel::raycast, 1.5);
+  }
+  const FrameTimes times = timer_.take();
+  EXPECT_EQ(times.between_stages_s, 0.0);
+  EXPECT_DOUBLE_EQ(times.computation_s(), 1.5);
+}
+
+TEST_F(FrameTimerTest, NothingIsBetweenTheStagesOfOtherFrames) {
+  { const StageScope stage(&timer_, Stage::track); }
+  EXPECT_EQ(timer_.take().between_stages_s, std::nullopt);
 }
 
 TEST_F(FrameTimerTest, TransfersAddUpByDirectionAndAreInNoOtherTime) {

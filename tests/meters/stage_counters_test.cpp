@@ -70,7 +70,7 @@ TEST_F(StageCountersTest, SayThatStagesInOneGoAreNotCounted) {
     count(10);
   }
   {
-    const ComputationScope computation(&timer);
+    const InOneGoScope scope(&timer);
     count(1000);
   }
   {

@@ -52,6 +52,8 @@ class Journal final : public Observer {
  public:
   void stage_begin(Stage) override {}
   void stage_end(Stage) override {}
+  void in_one_go_begin() override {}
+  void in_one_go_end() override {}
   void kernel_begin(Kernel kernel) override { begun.push_back(kernel); }
   void kernel_end(Kernel) override {}
   void kernel_measured(Kernel kernel, double seconds) override {

@@ -102,11 +102,13 @@ over 3 runs)"));
 
 TEST(SummaryText, TellsWhatLiesBetweenStagesOfFramesInOneGo) {
   Record record = sample_record();
-  for (FrameRecord& frame : record.frames) frame.times.between_s = frame.dropped ? 0 : 0.5;
+  for (FrameRecord& frame : record.frames) {
+    if (!frame.dropped) frame.times.between_stages_s = 0.5;
+  }
   const std::string text = summary_text(record, "", false);
-  EXPECT_THAT(text, HasSubstr("(between)        500.000       3   500.000   500.000   500.000   "
+  EXPECT_THAT(text, HasSubstr("between_stages   500.000       3   500.000   500.000   500.000   "
                               "500.000  28.6 %\ncomputation "));
-  EXPECT_THAT(text, HasSubstr("timed their kernels; between: launching and waiting)\n"));
+  EXPECT_THAT(text, HasSubstr("timed their kernels; between_stages: launching, waiting)\n"));
 }
 
 TEST(SummaryText, FitsEightyColumnsWithLongNamesAndTimes) {

@@ -293,7 +293,7 @@ TEST(RecordJson, HasWhatLiesBetweenStagesWhereFramesWereComputedInOneGo) {
   EXPECT_FALSE(without["time"].contains("between_stages"));
   EXPECT_EQ(without["absent"]["time.between_stages"],
             "no frame was computed in one go: stages are all");
-  for (const std::size_t frame : {3u, 4u}) record.frames[frame].times.between_s = 0.5;
+  for (const std::size_t frame : {3u, 4u}) record.frames[frame].times.between_stages_s = 0.5;
   const json document = json::parse(record_json(record));
   EXPECT_EQ(schema_errors(document), "");
   const json& between = document["time"]["between_stages"];
@@ -384,10 +384,12 @@ TEST(FramesCsv, IsTheLiteralTextOfASmallRecord) {
 
 TEST(FramesCsv, TellsFramesThatWereComputedInOneGo) {
   Record record = sample_record();
-  record.frames[3].times.between_s = 0.5;
+  record.frames[3].times.between_stages_s = 0.5;
   const std::string csv = frames_csv(record);
   EXPECT_EQ(field(csv, 3, "between_stages_s"), "0.5");
   EXPECT_EQ(field(csv, 4, "between_stages_s"), "");
+  record.frames[3].times.between_stages_s = 0;
+  EXPECT_EQ(field(frames_csv(record), 3, "between_stages_s"), "0") << "measured: nothing left over";
 }
 
 TEST(FramesCsv, HasTransfersWhereThereWereAny) {

@@ -612,11 +612,12 @@ class Journal : public Observer {
  public:
   void stage_begin(Stage stage) override { text_ += "(" + std::string(name(stage)) + ":"; }
   void stage_end(Stage) override { text_ += ")"; }
-  void computation_begin() override { text_ += "[computation:"; }
-  void computation_end() override { text_ += "]"; }
+  void in_one_go_begin() override { text_ += "[in one go:"; }
+  void in_one_go_end() override { text_ += "]"; }
   void kernel_begin(Kernel kernel) override { text_ += " " + std::string(name(kernel)); }
   void kernel_end(Kernel) override { text_ += "."; }
   void kernel_measured(Kernel, double) override { text_ += " measured"; }
+  void transfer_measured(Transfer, std::size_t, double) override { text_ += " transfer"; }
   std::string take() { return std::exchange(text_, {}); }
 
  private:
@@ -661,7 +662,7 @@ TEST_F(InOneGo, TellsOfNoStageOfTheComputation) {
   journal.take();
   process(fusion);
   EXPECT_EQ(journal.take(),
-            "[computation: mm2meters. bilateral_filter. depth2vertex. vertex2normal.]");
+            "[in one go: mm2meters. bilateral_filter. depth2vertex. vertex2normal.]");
   backend_.observe(nullptr);
 }
 

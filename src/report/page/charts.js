@@ -60,10 +60,10 @@ function stageChart(colors, among) {
     }),
     hovertemplate: `<b>${stage}</b>, %{customdata[0]}<br>%{x:.3f} ms a frame, %{customdata[1]}<br>where it ran, 95 % within %{customdata[2]}<extra></extra>`,
   }));
-  const between = (run) => run.record.time.between_stages?.seconds_per_frame ?? 0;
-  if (shown.some(between)) {
-    traces.push({type: "bar", orientation: "h", name: "between", y: shown.map((_, i) => i),
-      x: shown.map((run) => between(run) * 1e3), marker: {color: colors.line, line: {color: colors.page, width: 1}},
+  const betweenStages = (run) => run.record.time.between_stages?.seconds_per_frame ?? 0;
+  if (shown.some(betweenStages)) {
+    traces.push({type: "bar", orientation: "h", name: "between_stages", y: shown.map((_, i) => i),
+      x: shown.map((run) => betweenStages(run) * 1e3), marker: {color: colors.line, line: {color: colors.page, width: 1}},
       hovertemplate: "launching and waiting<br>%{x:.3f} ms a frame<extra></extra>"});
   }
   const ranges = shown.map((run) => interval(run.record, "time.computation_s.mean", 1e3));
@@ -216,7 +216,7 @@ function timeChart(colors) {
     }
     if (detailed[0].record.time.between_stages) {
       const inStages = (row) => computation.reduce((sum, stage) => sum + (f.stages_ms[stage]?.[row] ?? 0), 0);
-      traces.push({type: "scatter", mode: "lines", stackgroup: "stages", name: "between", x: f.index,
+      traces.push({type: "scatter", mode: "lines", stackgroup: "stages", name: "between_stages", x: f.index,
         y: f.computation_ms.map((ms, row) => Math.max(0, (ms ?? 0) - inStages(row))), line: {width: 0, color: colors.line}, fillcolor: colors.line,
         hovertemplate: "frame %{x}, launching and waiting %{y:.3f} ms<extra></extra>"});
     }
