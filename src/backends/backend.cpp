@@ -65,6 +65,13 @@ AlignInput align_input(const std::vector<DeviceImage<Float3>>& vertices,
   return input;
 }
 
+bool is_believed(const AlignInput& input, const AlignResult& aligned,
+                 const TrackingLimits& limits) {
+  const Size level = input.vertices[static_cast<std::size_t>(aligned.last_level)]->size;
+  return is_believed(aligned.T_volume_camera.matrix().allFinite(), aligned.last,
+                     static_cast<std::int64_t>(level.count()), limits);
+}
+
 Rigid3f to_rigid3f(const Pose& pose) {
   const Eigen::Matrix3d r = pose.linear();
   return {to_float3(r.row(0)), to_float3(r.row(1)), to_float3(r.row(2)),
@@ -199,7 +206,6 @@ AlignResult Backend::do_align(const AlignInput& input, double condition) {
 }
 
 AdvanceResult Backend::advance(const AdvanceInput& input) {
-  check(can_advance(), "advance: not of this backend");
   check_shapes(input.align);
   check(input.volume != nullptr && input.depth_m != nullptr, "advance: no volume or no depth");
   check(input.model_vertices != nullptr && input.model_normals != nullptr &&
@@ -208,8 +214,21 @@ AdvanceResult Backend::advance(const AdvanceInput& input) {
   return do_advance(input);
 }
 
-AdvanceResult Backend::do_advance(const AdvanceInput&) {
-  throw std::logic_error("advance: promised, but not there");
+AdvanceResult Backend::do_advance(const AdvanceInput& input) {
+  AdvanceResult result;
+  result.aligned = align(input.align, input.condition);
+  result.tracked = is_believed(input.align, result.aligned, input.limits);
+  const Pose& pose = result.tracked ? result.aligned.T_volume_camera : input.align.T_volume_camera;
+  if (result.tracked && input.integrate) {
+    IntegrateParameters there = *input.integrate;
+    there.T_camera_volume = to_rigid3f(pose.inverse());
+    integrate(*input.volume, *input.depth_m, there);
+  }
+  RaycastParameters view = input.raycast;
+  view.T_volume_camera = to_rigid3f(pose);
+  raycast(*input.model_vertices, *input.model_normals, *input.volume, view);
+  finish();
+  return result;
 }
 
 void Backend::integrate(Volume& volume, const DeviceImage<float>& depth_m,

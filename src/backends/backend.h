@@ -104,6 +104,9 @@ struct AdvanceResult {
   bool tracked = false;  ///< the alignment was believed; otherwise the frame stayed at its start
 };
 
+/// As kernels/tracking.h judges, by the level that the alignment ended on.
+bool is_believed(const AlignInput& input, const AlignResult& aligned, const TrackingLimits& limits);
+
 /// What raycast has found of a volume as it is now, for render_volume to draw from.
 struct SeenSurface {
   const DeviceImage<Float3>* vertices = nullptr;
@@ -152,9 +155,9 @@ class Backend {
   /// transfer_measured, at finish() at the latest, without any waiting of their own.
   virtual bool times_itself() const { return false; }
   virtual void finish() {}
-  /// Whether there is advance(). Only where times_itself(): in between, nobody has a look at a
-  /// clock.
-  virtual bool can_advance() const { return false; }
+  /// Whether advance() waits at its end only, so that a frame is best computed in one go. Only
+  /// where times_itself(): in between, nobody has a look at a clock.
+  virtual bool advances_in_one_go() const { return false; }
 
   /// Who is told about kernels from now on; null for nobody. Not owned.
   void observe(Observer* observer) { observer_ = observer; }
@@ -215,8 +218,8 @@ class Backend {
   /// The ICP loop, coarse to fine. Unless a backend does better and may: track, reduce and solve.
   AlignResult align(const AlignInput& input, double condition);
   /// align, then integrate if the alignment is believed and the frame is due, then raycast, from
-  /// the aligned pose or, of a lost frame, from the start. Nobody waits before the end; there, all
-  /// that was asked for before is finished as well, and told.
+  /// the aligned pose or, of a lost frame, from the start. At its end all that was asked for before
+  /// is finished as well, and told.
   AdvanceResult advance(const AdvanceInput& input);
 
  protected:
@@ -263,7 +266,7 @@ class Backend {
   virtual AlignResult do_align(const AlignInput& input, double condition);
   /// Whether do_align is the backend's own, and is to be reported as `align`.
   virtual bool fuses_align() const { return false; }
-  /// Called only where can_advance().
+  /// The single steps.
   virtual AdvanceResult do_advance(const AdvanceInput& input);
 
   /// Throws std::invalid_argument unless the condition holds.

@@ -25,10 +25,11 @@ SLAMBENCH_HD inline double inlier_fraction(const Reduction& last, std::int64_t p
   return static_cast<double>(last.inliers) / static_cast<double>(pixels);
 }
 
-/// Whether enough pixels agree with the model, and well enough.
-SLAMBENCH_HD inline bool agrees(const Reduction& last, std::int64_t pixels,
-                                const TrackingLimits& limits) {
-  return last.inliers > 0 && residual_m(last) <= limits.residual_m &&
+/// Of an alignment whose pose is `finite` or not, and whose last iteration was over a level of so
+/// many pixels: whether enough of them agree with the model, and well enough.
+SLAMBENCH_HD inline bool is_believed(bool finite, const Reduction& last, std::int64_t pixels,
+                                     const TrackingLimits& limits) {
+  return finite && last.inliers > 0 && residual_m(last) <= limits.residual_m &&
          inlier_fraction(last, pixels) >= limits.inlier_fraction;
 }
 

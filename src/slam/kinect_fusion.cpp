@@ -109,8 +109,8 @@ KinectFusion::KinectFusion(Backend& backend, const KinectFusionParameters& param
 
 FrameResult KinectFusion::process(const Frame& frame) {
   FrameResult result;
-  if (p_.fused && backend_.can_advance() && tracking_is_due()) {
-    advance(frame, &result);
+  if (p_.fused && backend_.advances_in_one_go() && tracking_is_due()) {
+    process_in_one_go(frame, &result);
   } else {
     preprocess(frame);
     track(&result);
@@ -132,10 +132,9 @@ void KinectFusion::track(FrameResult* result) {
   if (!tracking_is_due()) return;
   const StageScope scope(observer_, Stage::track);
   build_pyramid();
-  const AlignResult aligned = backend_.align(align_input(), p_.solve_condition);
-  const auto level = static_cast<std::size_t>(aligned.last_level);
-  const bool finite = aligned.T_volume_camera.matrix().allFinite();
-  accept(aligned, finite && agrees(aligned.last, pixels(vertices_[level].size), limits()), result);
+  const AlignInput input = align_input();
+  const AlignResult aligned = backend_.align(input, p_.solve_condition);
+  accept(aligned, is_believed(input, aligned, limits()), result);
   backend_.finish();
 }
 
@@ -156,17 +155,25 @@ void KinectFusion::raycast() {
   backend_.finish();
 }
 
-// There is a model only behind the first frames: their rules are none of these.
-void KinectFusion::advance(const Frame& frame, FrameResult* result) {
+// From the first model on, bootstrap_frames no longer matters.
+void KinectFusion::process_in_one_go(const Frame& frame, FrameResult* result) {
   const InOneGoScope scope(observer_);
   filter_depth(frame);
   build_pyramid();
-  AdvanceInput input{align_input(),    p_.solve_condition, limits(),      &volume_, &depth_m_, {},
-                     &model_vertices_, &model_normals_,    view(p_.far_m)};
-  if (integration_is_due()) input.integrate = measurement();
-  const AdvanceResult advanced = backend_.advance(input);
+  const bool due = integration_is_due();
+  const AdvanceResult advanced = backend_.advance({
+      .align = align_input(),
+      .condition = p_.solve_condition,
+      .limits = limits(),
+      .volume = &volume_,
+      .depth_m = &depth_m_,
+      .integrate = due ? std::optional(measurement()) : std::nullopt,
+      .model_vertices = &model_vertices_,
+      .model_normals = &model_normals_,
+      .raycast = view(p_.far_m),
+  });
   accept(advanced.aligned, advanced.tracked, result);
-  result->integrated = result->tracked && integration_is_due();
+  result->integrated = result->tracked && due;
   T_volume_model_ = T_volume_camera_;
 }
 

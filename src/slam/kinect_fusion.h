@@ -75,8 +75,8 @@ class KinectFusion final : public System {
   void track(FrameResult* result);
   void integrate(FrameResult* result);
   void raycast();
-  /// All of them for a frame that is to be tracked, with the backend's one wait.
-  void advance(const Frame& frame, FrameResult* result);
+  /// All of them for a frame that is to be tracked, in one go.
+  void process_in_one_go(const Frame& frame, FrameResult* result);
 
   bool tracking_is_due() const;
   bool integration_is_due() const;

@@ -30,7 +30,7 @@ TEST_F(Contract, SerialOffersEveryKernelButTheFusedOne) {
 }
 
 TEST_F(Contract, SerialDoesNotAdvanceAFrameInOneGo) {
-  EXPECT_FALSE(backend_.can_advance());
+  EXPECT_FALSE(backend_.advances_in_one_go());
   EXPECT_THROW(backend_.advance({}), std::invalid_argument);
 }
 

@@ -9,6 +9,7 @@
 #include "backends/serial/serial_backend.h"
 #include "cuda/host_launch.h"
 #include "slam/kinect_fusion.h"
+#include "support/advance.h"
 #include "support/device_images.h"
 #include "support/random_images.h"
 #include "support/synthetic_scene.h"
@@ -18,11 +19,22 @@
 namespace slambench {
 namespace {
 
+using testing::AfterFrame;
 using testing::downloaded;
+using testing::expect_same;
 using testing::HostCudaBackend;
 using testing::HostLaunch;
+using testing::Meeting;
 using testing::Order;
+using testing::step_by_step;
 using testing::uploaded;
+using testing::voxels_of;
+using testing::corner::camera;
+using testing::corner::fused;
+using testing::corner::resolution;
+using testing::corner::size;
+using testing::corner::size_m;
+using testing::corner::view_at;
 
 struct CudaBackend : ::testing::Test {
   std::shared_ptr<HostLaunch> launch = std::make_shared<HostLaunch>(Order::forwards);
@@ -38,8 +50,8 @@ struct Measured : Observer {
   void kernel_begin(Kernel kernel) override { ++from_outside[kernel]; }
   void kernel_end(Kernel) override {}
   void kernel_measured(Kernel kernel, double) override { ++by_itself[kernel]; }
-  void transfer_measured(Transfer direction, std::size_t size, double) override {
-    bytes[direction].push_back(size);
+  void transfer_measured(Transfer direction, std::size_t count, double) override {
+    bytes[direction].push_back(count);
   }
   std::map<Kernel, int> by_itself, from_outside;
   std::map<Transfer, std::vector<std::size_t>> bytes;
@@ -192,148 +204,23 @@ TEST(CudaAlign, IsTheSameInEveryBlockAndForAnyNumberOfThem) {
   }
 }
 
-// ---------------------------------------------------------------- views of a corner
-
-constexpr Size size{67, 50};
-constexpr Intrinsics camera{55, 55, 33, 25};
-constexpr Int3 resolution{72, 64, 61};
-constexpr Float3 size_m{2, 2, 2};
-
-Pose view_at(int step) {
-  Pose pose(Eigen::Translation3d(1.0 + 0.03 * step, 1.0 - 0.02 * step, 0.1 + 0.05 * step));
-  pose.rotate(Eigen::AngleAxisd(0.07 * step, Eigen::Vector3d(0.3, 1, 0.1).normalized()));
-  return pose;
-}
-
-Volume fused(Backend& backend, MapKind map, int steps) {
-  Volume volume = backend.make_volume(map, resolution, size_m);
-  for (int step = 0; step < steps; ++step) {
-    Image<float> depth =
-        testing::depth_m_of(step < 5 ? testing::room_corner(2) : testing::furnished_corner(2),
-                            view_at(step), camera, size);
-    if (step % 2 == 1) testing::punch_holes(depth, static_cast<std::uint32_t>(step), 0.002);
-    backend.integrate(volume, uploaded(backend, depth),
-                      {to_rigid3f(view_at(step).inverse()), camera, 0.1f, 6, 0.0001f});
-  }
-  return volume;
-}
-
-std::vector<Voxel> voxels_of(Backend& backend, const Volume& volume) {
-  std::vector<Voxel> voxels;
-  backend.read_volume(voxels, volume);
-  return voxels;
-}
-
 // ---------------------------------------------------------------- a frame in one go
-
-struct AfterFrame {
-  AlignResult aligned;
-  bool tracked = false;
-  std::vector<Voxel> voxels;
-  Image<Float3> vertices, normals;
-};
-
-/// A frame's maps, and the model and the volume that it meets.
-struct Meeting {
-  Meeting(Backend& backend, MapKind map)
-      : volume(fused(backend, map, 4)),
-        depth_m(uploaded(backend,
-                         testing::depth_m_of(testing::room_corner(2), view_at(4), camera, size))),
-        vertices(backend.make_image<Float3>(size)),
-        normals(backend.make_image<Float3>(size)),
-        model_vertices(backend.make_image<Float3>(size)),
-        model_normals(backend.make_image<Float3>(size)),
-        rows(backend.make_image<TrackData>(size)) {
-    backend.depth2vertex(vertices, depth_m, camera);
-    backend.vertex2normal(normals, vertices);
-    backend.raycast(model_vertices, model_normals, volume, ray(view_at(3)));
-    input.align = {{&vertices},
-                   {&normals},
-                   {&rows},
-                   &model_vertices,
-                   &model_normals,
-                   {10},
-                   {to_rigid3f(start()), to_rigid3f(view_at(3).inverse()), camera, 0.1f, 0.8f},
-                   start(),
-                   1e-5,
-                   true,
-                   true};
-    input.condition = 1e6;
-    input.limits = {0.02, 0.15};
-    input.volume = &volume;
-    input.depth_m = &depth_m;
-    input.model_vertices = &model_vertices;
-    input.model_normals = &model_normals;
-    // Of another pose, which nobody may look at.
-    input.integrate = measurement(view_at(9));
-    input.raycast = ray(view_at(9));
-  }
-
-  /// Not where the model was seen from: a lost frame's raycast shows.
-  static Pose start() { return view_at(3) * Eigen::Translation3d(0.01, 0, 0); }
-  static IntegrateParameters measurement(const Pose& pose) {
-    return {to_rigid3f(pose.inverse()), camera, 0.1f, 6, 0.0001f};
-  }
-  static RaycastParameters ray(const Pose& pose) {
-    return {to_rigid3f(pose), camera, 0.2f, 4, 0.075f, 0.028f, 0.8f};
-  }
-  AfterFrame now(Backend& backend, const AlignResult& aligned, bool tracked) const {
-    return {aligned, tracked, voxels_of(backend, volume), downloaded(backend, model_vertices),
-            downloaded(backend, model_normals)};
-  }
-
-  Volume volume;
-  DeviceImage<float> depth_m;
-  DeviceImage<Float3> vertices, normals, model_vertices, model_normals;
-  DeviceImage<TrackData> rows;
-  AdvanceInput input;
-};
-
-/// What the pipeline does with the backend's single steps.
-AfterFrame step_by_step(Backend& backend, Meeting& meeting) {
-  const AdvanceInput& in = meeting.input;
-  const AlignResult aligned = backend.align(in.align, in.condition);
-  const bool tracked = agrees(aligned.last, static_cast<std::int64_t>(size.count()), in.limits);
-  const Pose pose = tracked ? aligned.T_volume_camera : in.align.T_volume_camera;
-  if (tracked && in.integrate) {
-    backend.integrate(meeting.volume, meeting.depth_m, Meeting::measurement(pose));
-  }
-  backend.raycast(meeting.model_vertices, meeting.model_normals, meeting.volume,
-                  Meeting::ray(pose));
-  return meeting.now(backend, aligned, tracked);
-}
 
 struct Advance : ::testing::TestWithParam<std::tuple<MapKind, bool, bool>> {};
 
-TEST_P(Advance, DoesWhatTheSingleStepsDo) {
+TEST_P(Advance, DoesWhatTheSingleStepsDoWithOneWait) {
   const auto& [map, believed, due] = GetParam();
-  const auto meet = [&, map = map, believed = believed, due = due](Backend& backend) {
-    auto meeting = std::make_unique<Meeting>(backend, map);
-    if (!believed) meeting->input.limits.inlier_fraction = 1.1;
-    if (!due) meeting->input.integrate.reset();
-    return meeting;
-  };
   HostCudaBackend one(std::make_shared<HostLaunch>(Order::forwards));
-  const auto single = meet(one);
-  const std::vector<Voxel> before = voxels_of(one, single->volume);
-  const AfterFrame expected = step_by_step(one, *single);
-  EXPECT_EQ(expected.tracked, believed);
-  EXPECT_EQ(expected.voxels != before, believed && due);
+  Meeting single(one, map, believed, due);
+  const AfterFrame expected = step_by_step(one, single);
   for (const Order order : {Order::forwards, Order::backwards}) {
     const auto launch = std::make_shared<HostLaunch>(order);
     HostCudaBackend two(launch);
-    const auto meeting = meet(two);
+    const Meeting meeting(two, map, believed, due);
     const int waits = launch->waits;
-    const AdvanceResult advanced = two.advance(meeting->input);
+    const AdvanceResult advanced = two.advance(meeting.input);
     EXPECT_EQ(launch->waits, waits + 1);
-    const AfterFrame found = meeting->now(two, advanced.aligned, advanced.tracked);
-    EXPECT_EQ(found.tracked, expected.tracked);
-    EXPECT_EQ(found.aligned.iterations, expected.aligned.iterations);
-    EXPECT_EQ(found.aligned.last.inliers, expected.aligned.last.inliers);
-    EXPECT_TRUE(found.aligned.T_volume_camera.isApprox(expected.aligned.T_volume_camera, 1e-12));
-    EXPECT_EQ(found.voxels, expected.voxels);
-    EXPECT_EQ(found.vertices, expected.vertices);
-    EXPECT_EQ(found.normals, expected.normals);
+    expect_same(meeting.now(two, advanced.aligned, advanced.tracked), expected);
   }
 }
 
@@ -349,7 +236,7 @@ INSTANTIATE_TEST_SUITE_P(Every, Advance,
 
 /// A motion that is not finite is none, whatever the limits allow.
 TEST_F(CudaBackend, DoesNotBelieveAPoseThatIsNotFinite) {
-  Meeting meeting(backend, MapKind::bricks);
+  Meeting meeting(backend, MapKind::bricks, true, true);
   meeting.input.limits = {HUGE_VAL, 0};
   meeting.input.align.T_volume_camera.translation().x() = std::nan("");
   const std::vector<Voxel> before = voxels_of(backend, meeting.volume);

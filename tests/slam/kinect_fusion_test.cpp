@@ -491,7 +491,7 @@ class InOneGo : public Pipeline {
  protected:
   InOneGo() {
     p_.fused = true;
-    backend_.advances = true;
+    backend_.in_one_go = true;
   }
   bool advanced(KinectFusion& fusion) {
     backend_.advance_input.reset();
@@ -509,10 +509,10 @@ TEST_F(InOneGo, TracksFramesBehindTheFirst) {
 }
 
 TEST_F(InOneGo, OnlyWhereItIsAskedForAndOffered) {
-  backend_.advances = false;
+  backend_.in_one_go = false;
   KinectFusion without = make();
   EXPECT_EQ(pattern(6, [&](int) { return advanced(without); }), "000000");
-  backend_.advances = true;
+  backend_.in_one_go = true;
   p_.fused = false;
   KinectFusion singly = make();
   EXPECT_EQ(pattern(6, [&](int) { return advanced(singly); }), "000000");

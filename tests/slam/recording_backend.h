@@ -19,13 +19,13 @@ class RecordingBackend final : public HostBackend {
     return missing.count(kernel) == 0 && maps.count(map) > 0;
   }
   void finish() override { ++finished; }
-  bool can_advance() const override { return advances; }
+  bool advances_in_one_go() const override { return in_one_go; }
 
   std::set<Kernel> missing;
   std::set<MapKind> maps = {MapKind::grid, MapKind::bricks};
-  AlignResult answer;     ///< of the next align or advance
-  bool advances = false;  ///< offers advance
-  bool believed = true;   ///< what advance says of the alignment
+  AlignResult answer;      ///< of the next align or advance
+  bool in_one_go = false;  ///< offers advance as what to use
+  bool believed = true;    ///< what advance says of the alignment
 
   int finished = 0;
   Size gaussian_size;

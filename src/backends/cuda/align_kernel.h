@@ -150,8 +150,8 @@ struct Align {
   }
 
   SLAMBENCH_HD FoundPose found(const AlignOutcome& outcome) const {
-    const bool tracked =
-        is_finite(outcome.pose) && agrees(outcome.last, levels[outcome.last_level].pixels, limits);
+    const bool tracked = is_believed(is_finite(outcome.pose), outcome.last,
+                                     levels[outcome.last_level].pixels, limits);
     const PoseD pose = tracked ? outcome.pose : start;
     return {tracked ? 1 : 0, cuda::to_rigid3f(pose), cuda::to_rigid3f(inverse(pose))};
   }

@@ -139,7 +139,7 @@ class DeviceBackend final : public Backend {
     return kernel != Kernel::acquire && (map == MapKind::grid || map == MapKind::bricks);
   }
   bool times_itself() const override { return true; }
-  bool can_advance() const override { return true; }
+  bool advances_in_one_go() const override { return true; }
   void finish() override {
     launch_->finish();
     launch_->report(observer());
