@@ -31,7 +31,7 @@ constexpr LayoutCase cases[] = {{"groups_of_64", {64, 1, 1}},
 
 BackendOptions with(const KernelLayout& layout) {
   BackendOptions options;
-  options.opencl.layouts.fill({layout.group, layout.lanes, layout.per_item});
+  options.opencl.layouts.fill({layout.group, layout.lanes, layout.packets});
   return options;
 }
 
@@ -87,7 +87,7 @@ TEST(OpenclParameters, FillInWhatSuitsTheKindOfDevice) {
   const KernelLayout layout = parameters.layout("raycast", true);
   EXPECT_EQ(layout.group, 32);
   EXPECT_EQ(layout.lanes, 8);
-  EXPECT_EQ(layout.per_item, OpenclParameters{}.layout("raycast", true).per_item);
+  EXPECT_EQ(layout.packets, OpenclParameters{}.layout("raycast", true).packets);
 }
 
 TEST(OpenclParameters, GiveAKernelItsOwnBuildOptionsAfterThoseOfAll) {
@@ -113,8 +113,8 @@ std::string complaint_about(const char* name, const char* options) {
 
 TEST(OpenclParameters, RefuseBuildOptionsThatDefineTheProgramsOwnMacros) {
   const std::string expected = ", expected none of the macros that the program defines itself: ";
-  for (const char* macro : {"GROUP=64", "LANES=8", "PER_ITEM", "BRICKS=1", "WIDE=1",
-                            "ONLY_MISSES=1", "TILE=4", "MOST_TILES=1", "GROUP(x)=x"}) {
+  for (const char* macro : {"GROUP=64", "LANES=8", "PACKETS", "BRICKS=1", "WIDE=1", "ONLY_MISSES=1",
+                            "TILE=4", "MOST_TILES=1", "GROUP(x)=x"}) {
     const std::string message =
         complaint_about("opencl-mm2meters-options", (std::string("-DA=1 -D") + macro).c_str());
     EXPECT_NE(message.find(std::string("--opencl-mm2meters-options: found -D") + macro + expected),

@@ -49,8 +49,8 @@ constexpr Row rows[] = {
 static_assert(std::size(rows) == OpenclParameters::kernels);
 
 /// Macros of the kernels that say how, and for what, they are launched.
-constexpr std::string_view own_macros[] = {"GROUP", "LANES",       "PER_ITEM", "BRICKS",
-                                           "WIDE",  "ONLY_MISSES", "TILE",     "MOST_TILES"};
+constexpr std::string_view own_macros[] = {"GROUP", "LANES",       "PACKETS", "BRICKS",
+                                           "WIDE",  "ONLY_MISSES", "TILE",    "MOST_TILES"};
 
 constexpr int most_work_items = 1024;
 
@@ -107,15 +107,15 @@ ParameterList OpenclParameters::describe() {
 KernelLayout OpenclParameters::layout(std::string_view name, bool on_processor) const {
   const std::size_t i = row_of(name);
   KernelLayout layout = on_processor ? rows[i].processor : rows[i].gpu;
-  const auto& [group, lanes, per_item] = layouts[i];
+  const auto& [group, lanes, packets] = layouts[i];
   if (group != 0) layout.group = group;
   if (lanes != 0) layout.lanes = lanes;
-  if (per_item != 0) layout.per_item = per_item;
+  if (packets != 0) layout.packets = packets;
   if (!is_power_of_two(layout.group) ||
       (layout.lanes != 1 && layout.lanes != 8 && layout.lanes != 16)) {
     throw UsageError(
         fmt::format("--{}: found {},{},{}, expected a group of a power of two, lanes of 1, 8 or 16",
-                    rows[i].layout, group, lanes, per_item));
+                    rows[i].layout, group, lanes, packets));
   }
   return layout;
 }

@@ -14,7 +14,7 @@ namespace slambench {
 /// How a kernel is laid out on a device: work-items of a group, elements (lanes) that a work-item
 /// computes at once, and packets of so many elements that it takes one after the other.
 struct KernelLayout {
-  int group = 0, lanes = 0, per_item = 0;
+  int group = 0, lanes = 0, packets = 0;
 };
 
 /// The design space of the OpenCL kernels; the same results everywhere in it.

@@ -39,8 +39,8 @@ std::string options_of(const OpenclDevice& device, const KernelLayout& layout,
   std::string options = "-cl-std=CL1.2";
   if (device.divides_exactly) options += " -cl-fp32-correctly-rounded-divide-sqrt";
   if (!further.empty()) options += " " + further;
-  options += fmt::format(" -DGROUP={} -DLANES={} -DPER_ITEM={}", layout.group, layout.lanes,
-                         layout.per_item);
+  options += fmt::format(" -DGROUP={} -DLANES={} -DPACKETS={}", layout.group, layout.lanes,
+                         layout.packets);
   if (!macros.empty()) options += " " + macros;
   return options;
 }

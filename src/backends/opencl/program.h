@@ -24,7 +24,7 @@ struct DeviceKernel {
   /// Groups that cover so many packets.
   std::size_t groups(std::size_t packets) const {
     const auto each =
-        static_cast<std::size_t>(layout.group) * static_cast<std::size_t>(layout.per_item);
+        static_cast<std::size_t>(layout.group) * static_cast<std::size_t>(layout.packets);
     return (packets + each - 1) / each;
   }
 };

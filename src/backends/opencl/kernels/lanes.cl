@@ -303,10 +303,10 @@ INLINE void store3_packet(Vec3 v, Ints mask, global float* p, int width) {
 #undef TO
 }
 
-// Each work-item takes PER_ITEM packets of LANES elements, a group neighbouring ones.
-#define FOR_PACKETS(i, count)                                                          \
-  for (int i = get_group_id(0) * GROUP * PER_ITEM + get_local_id(0),                   \
-           i##_end = min((int)(count), (int)(get_group_id(0) + 1) * GROUP * PER_ITEM); \
+// Each work-item takes PACKETS packets of LANES elements, a group neighbouring ones.
+#define FOR_PACKETS(i, count)                                                         \
+  for (int i = get_group_id(0) * GROUP * PACKETS + get_local_id(0),                   \
+           i##_end = min((int)(count), (int)(get_group_id(0) + 1) * GROUP * PACKETS); \
        i < i##_end; i += GROUP)
 
 #define KERNEL kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void
