@@ -95,8 +95,8 @@ Queue& OpenclBackend::queue() {
 }
 
 std::unique_ptr<Storage> OpenclBackend::allocate(std::size_t bytes) {
-  constexpr std::size_t slack =
-      sizeof(float);  // gather3 (kernels/lanes.cl) reads past the last pixel
+  // gather3 (kernels/float3_lanes.cl) reads past the last pixel
+  constexpr std::size_t slack = sizeof(float);
   return std::make_unique<DeviceBuffer>(queue_.allocate(bytes + slack));
 }
 

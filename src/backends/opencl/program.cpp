@@ -23,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What every kernel builds on, in this order; `NAME.cl` follows.
-constexpr std::string_view shared[] = {"types", "lanes",       "maths",           "volume",
-                                       "sums",  "track_point", "integrate_voxels"};
+constexpr std::string_view shared[] = {"types",  "lanes", "float3_lanes", "maths",
+                                       "volume", "sums",  "track_point",  "integrate_voxels"};
 
 std::string source_of(const std::string& name) {
   std::string text;

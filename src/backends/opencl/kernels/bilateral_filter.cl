@@ -29,6 +29,6 @@ KERNEL bilateral_filter(global float* filtered_m, global const float* depth_m, S
       }
     }
     const Ints valid = center > 0.0f;
-    store_part(valid ? sum / weights : zero, filtered_m + p.y * size.width + p.x, p.count);
+    store_floats(valid ? sum / weights : zero, filtered_m + p.y * size.width + p.x, p.count);
   }
 }

@@ -40,6 +40,6 @@ KERNEL half_sample(global float* half_m, Size half_size, global const float* dep
     count_similar(third, first, range_m, &sum, &count);
     count_similar(fourth, first, range_m, &sum, &count);
     const Ints any = count > 0.0f;  // none when the first value is NaN
-    store_part(any ? sum / count : zero, half_m + p.y * half_size.width + p.x, p.count);
+    store_floats(any ? sum / count : zero, half_m + p.y * half_size.width + p.x, p.count);
   }
 }

@@ -9,7 +9,7 @@ INLINE void integrate_lanes(Vec3 center, global const float* depth_m, Size size,
   Ints x, y;
   const Ints inside = project(center, p.camera, size, p.min_depth_m, &x, &y);
   if (!any_lane(inside)) return;
-  const Floats depth = gather(depth_m, y * size.width + x);
+  const Floats depth = gather_floats(depth_m, y * size.width + x);
   const Floats slope_x = center.x / center.z, slope_y = center.y / center.z;
   const Floats distance =
       (depth - center.z) * sqrt(1.0f + slope_x * slope_x + slope_y * slope_y);

@@ -9,6 +9,6 @@ KERNEL mm2meters(global float* depth_m, Size size, global const ushort* depth, i
 #define AT(lane, i) in[min(i, p.count - 1) * ratio]
     const Floats units = (Floats)(EACH(AT));
 #undef AT
-    store_part(units / units_per_m, depth_m + p.y * size.width + p.x, p.count);
+    store_floats(units / units_per_m, depth_m + p.y * size.width + p.x, p.count);
   }
 }

@@ -91,7 +91,7 @@ KERNEL raycast(global float* vertices, global float* normals, Size size, Raycast
     Ints wanted = (x < size.width) & (y < size.height);
 #if ONLY_MISSES
     const Ints pixel = wanted ? 3 * (y * size.width + x) : (Ints)(0);
-    wanted = wanted & (gather(normals, pixel) == INVALID_NORMAL);
+    wanted = wanted & (gather_floats(normals, pixel) == INVALID_NORMAL);
     if (!any_lane(wanted)) continue;
 #endif
     const Vec3 direction = rotate3(p.T_volume_camera, pixel_ray(p.camera, x, y));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: The SLAMBench authors
 
-// The structs of src/kernels/types.h, byte for byte. This file, lanes.cl, maths.cl, volume.cl and
-// sums.cl come before every kernel.
+// The structs of src/kernels/types.h, byte for byte. What comes before every kernel, in which order,
+// stands in program.cpp (`shared`).
 
 #pragma OPENCL FP_CONTRACT OFF
 
