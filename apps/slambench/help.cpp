@@ -13,9 +13,11 @@ namespace {
 constexpr std::size_t page_width = 80;
 constexpr std::size_t right_column = 30;
 
-/// "-c, --compute-size-ratio N"; options without a letter leave its place empty.
+/// "-c, --compute-size-ratio N"; options without a letter leave its place empty. A text that the
+/// option has of its own stands for it.
 std::string left_text(const CLI::Option& option) {
   if (option.get_positional()) return option.get_name(true);
+  if (!option.get_option_text().empty()) return "    " + option.get_option_text();
   std::string text;
   for (const auto& letter : option.get_snames()) text += fmt::format("-{}, ", letter);
   if (text.empty()) text.assign(4, ' ');
@@ -59,6 +61,7 @@ std::string rows(const CLI::App& command, const std::string& title,
                  const std::function<bool(const CLI::Option*)>& wanted) {
   std::string text;
   for (const auto* option : command.get_options(wanted)) {
+    if (option->get_description().empty()) continue;  // another's row tells of it
     text += row(left_text(*option), option->get_description());
   }
   return text.empty() ? "" : fmt::format("\n{}:\n{}", title, text);

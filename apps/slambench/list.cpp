@@ -97,6 +97,7 @@ Json as_json(const Parameter& parameter) {
   }
   json["expected"] = expectation(parameter);
   json["sentence"] = parameter.sentence;
+  if (parameter.family != nullptr) json["family"] = parameter.family->name;
   return json;
 }
 

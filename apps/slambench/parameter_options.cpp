@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <set>
 
 #include "config/presets.h"
 #include "datasets/source.h"
@@ -25,6 +26,11 @@ struct Placeholder {
   const char* operator()(const std::vector<int>*) const { return "N,N,..."; }
   const char* operator()(const std::optional<std::array<double, 4>>*) const { return "A,B,C,D"; }
 };
+
+std::string placeholder(const Parameter& parameter) {
+  if (!parameter.parts.empty()) return std::string(parameter.parts);
+  return std::visit(Placeholder{}, parameter.value);
+}
 
 bool is_switch(const Parameter& parameter) {
   return std::holds_alternative<bool*>(parameter.value);
@@ -81,10 +87,8 @@ std::string default_words(const Parameter& parameter) {
                      suggested ? " " + default_exception(parameter) : std::string());
 }
 
-}  // namespace
-
-std::string help_sentence(const Parameter& parameter) {
-  std::string text(parameter.sentence);
+/// The sentence with the facts of the parameter.
+std::string with_facts(std::string_view sentence, const Parameter& parameter) {
   std::string facts(parameter.unit);
   const auto add = [&facts](const std::string& fact) {
     if (!facts.empty() && !fact.empty()) facts += ", ";
@@ -92,20 +96,53 @@ std::string help_sentence(const Parameter& parameter) {
   };
   add(range_words(parameter));
   add(default_words(parameter));
-  return facts.empty() ? text : fmt::format("{} ({})", text, facts);
+  return facts.empty() ? std::string(sentence) : fmt::format("{} ({})", sentence, facts);
+}
+
+/// What the names of the family's members in the list have in place of its word in capitals:
+/// "KERNEL: mm2meters, raycast".
+std::string members_of(const ParameterFamily& family, const ParameterList& list) {
+  constexpr std::string_view capitals = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
+  const std::size_t begin = family.name.find_first_of(capitals);
+  const std::size_t end = family.name.find_last_of(capitals) + 1;
+  std::vector<std::string_view> words;
+  for (const Parameter& parameter : list.parameters) {
+    if (parameter.family != &family) continue;
+    const std::size_t length = parameter.name.size() - family.name.size() + end - begin;
+    words.push_back(parameter.name.substr(begin, length));
+  }
+  return fmt::format("{}: {}", family.name.substr(begin, end - begin), fmt::join(words, ", "));
+}
+
+}  // namespace
+
+std::string help_sentence(const Parameter& parameter) {
+  return with_facts(parameter.sentence, parameter);
 }
 
 void ParameterOptions::add(CLI::App& command, const std::vector<ParameterList>& lists) {
   for (const ParameterList& list : lists) {
+    std::set<const ParameterFamily*> families;
+    std::set<std::string> members;
     for (const Parameter& parameter : list.parameters) {
       CLI::Option* option = is_switch(parameter) ? command.add_flag(option_names(parameter))
                                                  : command.add_option(option_names(parameter));
       if (!is_switch(parameter)) option->expected(1);
       option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-      option->type_name(std::visit(Placeholder{}, parameter.value));
+      option->type_name(placeholder(parameter));
       option->description(help_sentence(parameter));
       option->group(fmt::format("Parameters, table [{}] of a configuration file", list.group));
       options_.emplace_back(parameter.name, option);
+      if (const ParameterFamily* family = parameter.family) {
+        if (!families.insert(family).second) {
+          option->description("");
+          continue;
+        }
+        const std::string own = members_of(*family, list);
+        option->option_text(fmt::format("--{} {}", family->name, placeholder(parameter)));
+        option->description(with_facts(family->sentence, parameter) +
+                            (members.insert(own).second ? ". " + own : ""));
+      }
     }
   }
 }

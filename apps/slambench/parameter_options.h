@@ -12,7 +12,7 @@
 
 namespace slambench {
 
-/// Parameters as options of a command, in one group of the help per list.
+/// Parameters as options of a command, in one group of the help per list; a family has one entry.
 class ParameterOptions {
  public:
   void add(CLI::App& command, const std::vector<ParameterList>& lists);

@@ -44,8 +44,8 @@ struct BackendEntry {
 /// who did not ask for OpenCL has its drivers loaded, with their threads and signal handlers.
 std::span<const BackendEntry> backend_table();
 
-/// Throws UsageError for an unknown name (and lists the known), UnavailableError with the reason
-/// for one that cannot be used here.
+/// Throws UsageError for an unknown name (and lists the known) and for options that no backend can
+/// have, be they its own or not; UnavailableError with the reason for one that cannot be used here.
 std::unique_ptr<Backend> create_backend(std::string_view name, const BackendOptions& options);
 
 }  // namespace slambench

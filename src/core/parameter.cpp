@@ -51,7 +51,7 @@ T parse_number(const Parameter& parameter, std::string_view part, std::string_vi
 template <class T, std::size_t N>
 std::array<T, N> parse_array(const Parameter& parameter, std::string_view text) {
   const auto parts = split(text);
-  const bool repeat = N == 3 && parts.size() == 1;
+  const bool repeat = N == 3 && parts.size() == 1 && parameter.parts.empty();
   if (parts.size() != N && !repeat) reject(parameter, text);
   std::array<T, N> values{};
   for (std::size_t i = 0; i < N; ++i) {
@@ -76,6 +76,12 @@ std::string list_text(const Range& values) {
 }
 
 std::string range_text(const Parameter& p) { return fmt::format("[{}, {}]", p.min, p.max); }
+
+/// Of a triple of such numbers.
+std::string triple_text(const Parameter& p, std::string_view numbers, const std::string& unit) {
+  const std::string range = fmt::format("{} in {}{}", numbers, range_text(p), unit);
+  return p.parts.empty() ? "one or three " + range : fmt::format("three {}: {}", range, p.parts);
+}
 
 /// Every number of the value, for the range check.
 std::vector<double> numbers(const Parameter& parameter) {
@@ -196,12 +202,8 @@ std::string expectation(const Parameter& parameter) {
             if (parameter.choices.empty()) return std::string("text");
             return fmt::format("one of {}", fmt::join(parameter.choices, ", "));
           },
-          [&](std::array<int, 3>*) {
-            return fmt::format("one or three integers in {}{}", range_text(parameter), unit);
-          },
-          [&](std::array<double, 3>*) {
-            return fmt::format("one or three numbers in {}{}", range_text(parameter), unit);
-          },
+          [&](std::array<int, 3>*) { return triple_text(parameter, "integers", unit); },
+          [&](std::array<double, 3>*) { return triple_text(parameter, "numbers", unit); },
           [&](std::vector<int>*) {
             return fmt::format("integers in {}{}, separated by commas", range_text(parameter),
                                unit);

@@ -23,6 +23,12 @@ enum class ParameterRole {
   bookkeeping,     ///< where results go and how often the run is repeated
 };
 
+/// Parameters of the same kind, so many that the help tells of all in one entry.
+struct ParameterFamily {
+  std::string_view name;      ///< with a word in capitals where theirs differ: "opencl-KERNEL"
+  std::string_view sentence;  ///< what they do, for people
+};
+
 /// A described, live parameter. Structs of parameters describe themselves as a ParameterList;
 /// the command line, the configuration file, the help text, the record and a search space are all
 /// derived from that list, so a parameter is declared in one place.
@@ -38,6 +44,10 @@ struct Parameter {
   std::vector<std::string_view> choices = {};
   /// Comparisons refuse runs that differ in a parameter of the task.
   ParameterRole role = ParameterRole::task;
+  /// What the numbers of a triple are where each is something else ("GROUP,LANES,PACKETS"): all
+  /// three have to be given. Empty: one number stands for three equal ones.
+  std::string_view parts = {};
+  const ParameterFamily* family = nullptr;  ///< null for most: of no family
 };
 
 /// The parameters of one struct, under the name of their TOML table.
@@ -53,8 +63,9 @@ ParameterList with_role(ParameterRole role, ParameterList list);
 /// optional is "". Numbers round-trip.
 std::string to_text(const Parameter& parameter);
 
-/// Sets the value from command-line text. One number is enough for a triple: it is repeated.
-/// Throws UsageError naming parameter, text, and what was expected (type, range, words).
+/// Sets the value from command-line text. One number is enough for a triple without
+/// parts: it is repeated. Throws UsageError naming parameter, text, and what was expected (type,
+/// range, words).
 void set_from_text(const Parameter& parameter, std::string_view text);
 
 /// Throws UsageError when the value lies outside its range or words, or is not finite.

@@ -18,6 +18,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 using Json = nlohmann::json;
 
@@ -28,6 +29,22 @@ class ListTest : public ::testing::Test {
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
     return outcome.out;
+  }
+  /// The help has one entry of the family's name, and says what makes the parameter's name of it.
+  static void expect_in_entry_of_family(const std::string& help, const Json& parameter) {
+    const std::string family = parameter.at("family"), name = parameter.at("name");
+    const std::string word = "KERNEL";
+    const std::size_t at = family.find(word), tail = family.size() - at - word.size();
+    ASSERT_NE(at, std::string::npos) << family;
+    const std::string own = name.substr(at, name.size() - at - tail);
+    EXPECT_EQ(family.substr(0, at) + own + family.substr(at + word.size()), name);
+    const std::size_t entry = help.find("--" + family + " ");
+    ASSERT_NE(entry, std::string::npos) << family;
+    EXPECT_EQ(help.find("--" + family + " ", entry + 1), std::string::npos) << family;
+    const std::size_t members = help.find("KERNEL: ");
+    ASSERT_NE(members, std::string::npos);
+    EXPECT_THAT(help.substr(members), HasSubstr(own));
+    EXPECT_THAT(help, Not(HasSubstr("--" + name)));
   }
   static void expect_80_columns(const std::string& text) {
     std::istringstream lines(text);
@@ -72,8 +89,12 @@ TEST_F(ListTest, EveryParameterIsAnOptionWithItsDefault) {
   for (const auto& group : json.at("parameters")) {
     for (const auto& parameter : group) {
       const std::string option = "--" + parameter.at("name").get<std::string>();
-      EXPECT_THAT(help, HasSubstr(option));
       EXPECT_THAT(list, HasSubstr(option));
+      if (parameter.contains("family")) {
+        expect_in_entry_of_family(help, parameter);
+      } else {
+        EXPECT_THAT(help, HasSubstr(option));
+      }
       if (parameter.contains("letter")) letters.insert(parameter.at("letter"));
     }
   }

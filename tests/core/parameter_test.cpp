@@ -12,6 +12,11 @@
 namespace slambench {
 namespace {
 
+Parameter with_parts(Parameter parameter) {
+  parameter.parts = "GROUP,LANES,PACKETS";
+  return parameter;
+}
+
 /// One parameter of every type.
 struct Everything {
   bool flag = false;
@@ -20,6 +25,7 @@ struct Everything {
   std::string word = "grid", text = "any";
   std::array<int, 3> voxels = {1, 2, 3};
   std::array<double, 3> size = {0.5, 1, 2};
+  std::array<int, 3> layout = {1, 8, 2};
   std::vector<int> levels = {10, 5, 4};
   std::optional<double> scale;
   std::optional<std::array<double, 4>> camera;
@@ -33,6 +39,7 @@ struct Everything {
              {"text", 0, "", &text, 0, 0, "a text"},
              {"voxels", 0, "", &voxels, 1, 512, "voxels"},
              {"size", 0, "m", &size, 0, 100, "a size"},
+             with_parts({"layout", 0, "", &layout, 0, 100, "a layout"}),
              {"levels", 0, "", &levels, 0, 100, "levels"},
              {"scale", 0, "", &scale, 1, 5000, "a scale"},
              {"camera", 0, "px", &camera, 0, 10000, "a camera"}}};
@@ -102,6 +109,14 @@ TEST_F(Parameters, TakeTextOfTheirType) {
   EXPECT_EQ(values_.camera, (std::array<double, 4>{1, 2, 3, 4.5}));
   set("camera", "");
   EXPECT_EQ(values_.camera, std::nullopt);
+}
+
+TEST_F(Parameters, NeedAllPartsWhereEachIsSomethingElse) {
+  set("layout", "4,5,6");
+  EXPECT_EQ(values_.layout, (std::array<int, 3>{4, 5, 6}));
+  EXPECT_EQ(refusal("layout", "7"),
+            "--layout: found '7', expected three integers in [0, 100]: GROUP,LANES,PACKETS");
+  EXPECT_EQ(values_.layout, (std::array<int, 3>{4, 5, 6}));
 }
 
 TEST_F(Parameters, ComeBackFromTheirText) {

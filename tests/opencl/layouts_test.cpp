@@ -5,8 +5,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "backends/opencl/opencl.h"
@@ -29,9 +32,33 @@ constexpr LayoutCase cases[] = {{"groups_of_64", {64, 1, 1}},
                                 {"groups_of_4_with_8_lanes", {4, 8, 1}},
                                 {"sixteen_lanes", {1, 16, 2}}};
 
+/// Parameters of kernels whose number of lanes, of packets is 1.
+constexpr std::string_view without_lanes[] = {"opencl-generate-gaussian", "opencl-sum-groups",
+                                              "opencl-depth-tiles", "opencl-classify-bricks",
+                                              "opencl-start-depths"};
+constexpr std::string_view without_packets[] = {"opencl-sum-groups", "opencl-integrate-bricks"};
+
+bool is_in(std::span<const std::string_view> names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+/// The parameters of the layouts of all kernels.
+std::vector<Parameter> layout_parameters(OpenclParameters* parameters) {
+  std::vector<Parameter> layouts;
+  for (const Parameter& parameter : parameters->describe().parameters) {
+    if (!parameter.parts.empty()) layouts.push_back(parameter);
+  }
+  return layouts;
+}
+
+/// This layout for all kernels, as far as they can have it.
 BackendOptions with(const KernelLayout& layout) {
   BackendOptions options;
-  options.opencl.layouts.fill({layout.group, layout.lanes, layout.packets});
+  for (const Parameter& parameter : layout_parameters(&options.opencl)) {
+    const int lanes = is_in(without_lanes, parameter.name) ? 1 : layout.lanes;
+    const int packets = is_in(without_packets, parameter.name) ? 1 : layout.packets;
+    set_from_text(parameter, fmt::format("{},{},{}", layout.group, lanes, packets));
+  }
   return options;
 }
 
@@ -108,7 +135,7 @@ std::string complaint_about(const char* name, const char* options) {
   parameters.build_options = "-w";
   const std::vector<ParameterList> lists = {parameters.describe()};
   set_from_text(*find(lists, name), options);
-  return testing::message_of<UsageError>([&] { parameters.check(true); });
+  return testing::message_of<UsageError>([&] { parameters.check(); });
 }
 
 TEST(OpenclParameters, RefuseBuildOptionsThatDefineTheProgramsOwnMacros) {
@@ -138,7 +165,7 @@ TEST(OpenclParameters, RefuseBuildOptionsThatEndWhereANameHasToFollow) {
 TEST(OpenclParameters, TakeOtherBuildOptions) {
   OpenclParameters parameters;
   parameters.build_options = " -DLANES_OF=8 -D A -IGROUP -I . -UB -cl-mad-enable ";
-  EXPECT_NO_THROW(parameters.check(true));
+  EXPECT_NO_THROW(parameters.check());
 }
 
 TEST(OpenclParameters, RefuseWhatNoKernelCanHave) {
@@ -151,6 +178,55 @@ TEST(OpenclParameters, RefuseWhatNoKernelCanHave) {
     EXPECT_NE(message.find(std::string("--opencl-align: found ") + text), std::string::npos)
         << message;
   }
+}
+
+/// What is wrong with this layout of one kernel; "" for nothing.
+std::string fault_of(std::string_view name, const std::string& layout) {
+  OpenclParameters parameters;
+  set_from_text(*find({parameters.describe()}, name), layout);
+  try {
+    parameters.check();
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(OpenclParameters, RefuseNumbersOfALayoutWithoutEffect) {
+  OpenclParameters parameters;
+  const std::vector<Parameter> layouts = layout_parameters(&parameters);
+  ASSERT_EQ(layouts.size(), 19U);
+  for (const Parameter& parameter : layouts) {
+    const std::string name(parameter.name);
+    EXPECT_EQ(fault_of(name, "64,1,1"), "");
+    const std::string lanes = is_in(without_lanes, name) ? "lanes of 1" : "lanes of 1, 8 or 16";
+    const std::string packets = is_in(without_packets, name) ? ", packets of 1" : "";
+    const auto fault = [&](const char* layout) {
+      return fmt::format("--{}: found {}, expected a group of a power of two, {}{}", name, layout,
+                         lanes, packets);
+    };
+    EXPECT_EQ(fault_of(name, "32,8,0"), is_in(without_lanes, name) ? fault("32,8,0") : "");
+    EXPECT_EQ(fault_of(name, "0,0,2"), is_in(without_packets, name) ? fault("0,0,2") : "");
+    const bool says_so = parameter.sentence.find(" alone") != std::string_view::npos;
+    EXPECT_EQ(says_so, is_in(without_lanes, name) || is_in(without_packets, name)) << name;
+  }
+}
+
+TEST(OpenclParameters, RefuseLayoutsOfLessThanThreeNumbers) {
+  OpenclParameters parameters;
+  const std::vector<ParameterList> lists = {parameters.describe()};
+  for (const std::string text : {"64", "64,1", "64,1,1,1"}) {
+    EXPECT_EQ(testing::message_of<UsageError>(
+                  [&] { set_from_text(*find(lists, "opencl-raycast"), text); }),
+              "--opencl-raycast: found '" + text +
+                  "', expected three integers in [0, 1024]: GROUP,LANES,PACKETS");
+  }
+}
+
+TEST(OpenclParameters, AreCheckedWhicheverBackendRuns) {
+  BackendOptions options;
+  set_from_text(*find({options.opencl.describe()}, "opencl-track"), "3,1,1");
+  EXPECT_THROW(create_backend("serial", options), UsageError);
 }
 
 }  // namespace

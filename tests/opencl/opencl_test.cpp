@@ -330,9 +330,9 @@ TEST_F(Opencl, NeedsNoHome) {
 }
 
 TEST_F(Opencl, RefusesALayoutBeforeAnyKernelIsAskedFor) {
-  OpenclParameters parameters;
-  parameters.layouts.back() = {3, 1, 1};
-  EXPECT_THAT(testing::message_of<UsageError>([&] { make_opencl_backend(0, parameters); }),
+  BackendOptions options;
+  options.opencl.layouts.back() = {3, 1, 1};
+  EXPECT_THAT(testing::message_of<UsageError>([&] { create_backend("opencl", options); }),
               HasSubstr("expected a group of a power of two"));
 }
 
@@ -386,6 +386,18 @@ INSTANTIATE_TEST_SUITE_P(
                   {"--opencl-raycast", "3,1,1"},
                   2,
                   {"--opencl-raycast: found 3,1,1", "a power of two"}},
+        ErrorCase{"LayoutOfOneNumber",
+                  {"--opencl-raycast", "64"},
+                  2,
+                  {"--opencl-raycast: found '64', expected three integers"}},
+        ErrorCase{"NoLayout",
+                  {"--opencl-raycast"},
+                  2,
+                  {"--opencl-raycast: 1 required GROUP,LANES,PACKETS missing"}},
+        ErrorCase{"LayoutWithoutEffect",
+                  {"--opencl-start-depths", "64,8,1"},
+                  2,
+                  {"--opencl-start-depths: found 64,8,1, expected a group", "lanes of 1\n"}},
         ErrorCase{"BuildFailure",
                   {"--opencl-build-options=-Dhalf_sample=5"},
                   1,

@@ -13,40 +13,79 @@
 namespace slambench {
 namespace {
 
-/// A kernel, the parameters of its layout and of its build options, and the layouts that suit a
-/// processor and a GPU. A processor has few cores: groups of one work-item, long runs and wide
-/// vectors; a GPU makes vectors of work-items.
-struct Row {
-  std::string_view kernel, layout, build_options;
-  KernelLayout processor, gpu;
+/// Which numbers of a layout a kernel makes use of besides the group; the others are 1.
+struct Uses {
+  bool lanes, packets;
+  std::string_view sentence;
 };
+constexpr Uses all = {true, true,
+                      "group, lanes (1, 8 or 16) and packets per work-item; 0: what suits the "
+                      "device"};
+constexpr Uses no_lanes = {false, true,
+                           "group, lanes (1 alone, without vectors) and packets per work-item; 0: "
+                           "what suits the device"};
+constexpr Uses no_packets = {true, false,
+                             "group, lanes (1, 8 or 16) and packets per work-item (1 alone, a "
+                             "group takes a brick); 0: what suits the device"};
+constexpr Uses group_alone = {false, false,
+                              "group, lanes and packets per work-item (both 1 alone, there is one "
+                              "group); 0: what suits the device"};
 
-/// The two parameters of a kernel, whose name is written with hyphens there.
-#define PARAMETERS(name) "opencl-" name, "opencl-" name "-options"
+/// A kernel, and the layouts that suit a processor and a GPU. A processor has few cores: groups of
+/// one work-item, long runs and wide vectors; a GPU makes vectors of work-items.
+struct Row {
+  std::string_view kernel;
+  KernelLayout processor, gpu;
+  Uses uses = all;
+};
 
 constexpr Row rows[] = {
-    {"generate_gaussian", PARAMETERS("generate-gaussian"), {64, 1, 1}, {64, 1, 1}},
-    {"mm2meters", PARAMETERS("mm2meters"), {1, 16, 128}, {128, 1, 1}},
-    {"bilateral_filter", PARAMETERS("bilateral-filter"), {1, 16, 64}, {128, 1, 1}},
-    {"half_sample", PARAMETERS("half-sample"), {1, 16, 64}, {128, 1, 1}},
-    {"depth2vertex", PARAMETERS("depth2vertex"), {1, 16, 128}, {128, 1, 1}},
-    {"vertex2normal", PARAMETERS("vertex2normal"), {1, 16, 64}, {128, 1, 1}},
-    {"track", PARAMETERS("track"), {1, 16, 64}, {128, 1, 1}},
-    {"reduce", PARAMETERS("reduce"), {1, 16, 64}, {128, 1, 8}},
-    {"align", PARAMETERS("align"), {1, 16, 64}, {128, 1, 8}},
-    {"sum_groups", PARAMETERS("sum-groups"), {1, 1, 1}, {32, 1, 1}},
-    {"integrate", PARAMETERS("integrate"), {1, 16, 256}, {128, 1, 1}},
-    {"depth_tiles", PARAMETERS("depth-tiles"), {64, 1, 1}, {64, 1, 1}},
-    {"classify_bricks", PARAMETERS("classify-bricks"), {256, 1, 1}, {128, 1, 1}},
-    {"integrate_bricks", PARAMETERS("integrate-bricks"), {1, 16, 1}, {64, 1, 1}},
-    {"start_depths", PARAMETERS("start-depths"), {1, 1, 1024}, {128, 1, 8}},
-    {"raycast", PARAMETERS("raycast"), {1, 16, 32}, {64, 1, 1}},
-    {"render_depth", PARAMETERS("render-depth"), {1, 16, 64}, {128, 1, 1}},
-    {"render_track", PARAMETERS("render-track"), {1, 16, 64}, {128, 1, 1}},
-    {"render_volume", PARAMETERS("render-volume"), {1, 16, 64}, {128, 1, 1}},
+    {"generate_gaussian", {64, 1, 1}, {64, 1, 1}, no_lanes},
+    {"mm2meters", {1, 16, 128}, {128, 1, 1}},
+    {"bilateral_filter", {1, 16, 64}, {128, 1, 1}},
+    {"half_sample", {1, 16, 64}, {128, 1, 1}},
+    {"depth2vertex", {1, 16, 128}, {128, 1, 1}},
+    {"vertex2normal", {1, 16, 64}, {128, 1, 1}},
+    {"track", {1, 16, 64}, {128, 1, 1}},
+    {"reduce", {1, 16, 64}, {128, 1, 8}},
+    {"align", {1, 16, 64}, {128, 1, 8}},
+    {"sum_groups", {1, 1, 1}, {32, 1, 1}, group_alone},
+    {"integrate", {1, 16, 256}, {128, 1, 1}},
+    {"depth_tiles", {64, 1, 1}, {64, 1, 1}, no_lanes},
+    {"classify_bricks", {256, 1, 1}, {128, 1, 1}, no_lanes},
+    {"integrate_bricks", {1, 16, 1}, {64, 1, 1}, no_packets},
+    {"start_depths", {1, 1, 1024}, {128, 1, 8}, no_lanes},
+    {"raycast", {1, 16, 32}, {64, 1, 1}},
+    {"render_depth", {1, 16, 64}, {128, 1, 1}},
+    {"render_track", {1, 16, 64}, {128, 1, 1}},
+    {"render_volume", {1, 16, 64}, {128, 1, 1}},
 };
-#undef PARAMETERS
-static_assert(std::size(rows) == OpenclParameters::kernels);
+
+/// The names of a kernel's parameters, its own name in them with hyphens.
+struct Names {
+  explicit Names(std::string kernel) {
+    std::ranges::replace(kernel, '_', '-');
+    layout = "opencl-" + kernel;
+    build_options = layout + "-options";
+  }
+  std::string layout, build_options;
+};
+
+const Names& names_of(std::size_t row) {
+  static const std::vector<Names> names = [] {
+    std::vector<Names> made;
+    for (const Row& each : rows) made.emplace_back(std::string(each.kernel));
+    return made;
+  }();
+  return names[row];
+}
+
+constexpr ParameterFamily layout_family = {
+    "opencl-KERNEL",
+    "a kernel's group, lanes (1, 8 or 16) and packets per work-item; 0: what suits the device. "
+    "Which kernels have 1 lane or 1 packet alone: slambench list --parameters"};
+constexpr ParameterFamily build_options_family = {
+    "opencl-KERNEL-options", "further options of OpenCL's compiler, for one kernel"};
 
 /// Macros of the kernels that say how, and for what, they are launched.
 constexpr std::string_view own_macros[] = {"GROUP", "LANES",       "PACKETS", "BRICKS",
@@ -87,16 +126,35 @@ void check_build_options(std::string_view parameter, const std::string& options)
   }
 }
 
+bool is_possible(const KernelLayout& layout, const Uses& uses) {
+  const auto& [group, lanes, packets] = layout;
+  const bool vectors = uses.lanes && (lanes == 8 || lanes == 16);
+  return (group == 0 || is_power_of_two(group)) && (lanes == 0 || lanes == 1 || vectors) &&
+         (packets == 0 || packets == 1 || uses.packets);
+}
+
 }  // namespace
+
+OpenclParameters::OpenclParameters()
+    : layouts(std::size(rows)), kernel_build_options(std::size(rows)) {}
 
 ParameterList OpenclParameters::describe() {
   ParameterList list{"opencl", {}};
-  for (std::size_t i = 0; i < kernels; ++i) {
-    list.parameters.push_back({rows[i].layout, 0, "", &layouts[i], 0, most_work_items,
-                               "group, lanes (1, 8 or 16) and packets per work-item; 0: what suits "
-                               "the device"});
-    list.parameters.push_back({rows[i].build_options, 0, "", &kernel_build_options[i], 0, 0,
-                               "further options of OpenCL's compiler, for this kernel"});
+  for (std::size_t i = 0; i < std::size(rows); ++i) {
+    Parameter layout = {names_of(i).layout,   0, "", &layouts[i], 0, most_work_items,
+                        rows[i].uses.sentence};
+    layout.parts = "GROUP,LANES,PACKETS";
+    layout.family = &layout_family;
+    Parameter own_options = {names_of(i).build_options,
+                             0,
+                             "",
+                             &kernel_build_options[i],
+                             0,
+                             0,
+                             "further options of OpenCL's compiler, for this kernel"};
+    own_options.family = &build_options_family;
+    list.parameters.push_back(layout);
+    list.parameters.push_back(own_options);
   }
   list.parameters.push_back({"opencl-build-options", 0, "", &build_options, 0, 0,
                              "further options of OpenCL's compiler, for every kernel, before the "
@@ -106,18 +164,23 @@ ParameterList OpenclParameters::describe() {
 
 KernelLayout OpenclParameters::layout(std::string_view name, bool on_processor) const {
   const std::size_t i = row_of(name);
+  check_layout(i);
   KernelLayout layout = on_processor ? rows[i].processor : rows[i].gpu;
   const auto& [group, lanes, packets] = layouts[i];
   if (group != 0) layout.group = group;
   if (lanes != 0) layout.lanes = lanes;
   if (packets != 0) layout.packets = packets;
-  if (!is_power_of_two(layout.group) ||
-      (layout.lanes != 1 && layout.lanes != 8 && layout.lanes != 16)) {
-    throw UsageError(
-        fmt::format("--{}: found {},{},{}, expected a group of a power of two, lanes of 1, 8 or 16",
-                    rows[i].layout, group, lanes, packets));
-  }
   return layout;
+}
+
+void OpenclParameters::check_layout(std::size_t row) const {
+  const auto& [group, lanes, packets] = layouts[row];
+  const Uses& uses = rows[row].uses;
+  if (is_possible({group, lanes, packets}, uses)) return;
+  throw UsageError(
+      fmt::format("--{}: found {},{},{}, expected a group of a power of two, lanes of {}{}",
+                  names_of(row).layout, group, lanes, packets, uses.lanes ? "1, 8 or 16" : "1",
+                  uses.packets ? "" : ", packets of 1"));
 }
 
 std::string OpenclParameters::build_options_of(std::string_view name) const {
@@ -125,11 +188,11 @@ std::string OpenclParameters::build_options_of(std::string_view name) const {
   return build_options.empty() || own.empty() ? build_options + own : build_options + " " + own;
 }
 
-void OpenclParameters::check(bool on_processor) const {
+void OpenclParameters::check() const {
   check_build_options("opencl-build-options", build_options);
-  for (std::size_t i = 0; i < kernels; ++i) {
-    layout(rows[i].kernel, on_processor);
-    check_build_options(rows[i].build_options, kernel_build_options[i]);
+  for (std::size_t i = 0; i < std::size(rows); ++i) {
+    check_layout(i);
+    check_build_options(names_of(i).build_options, kernel_build_options[i]);
   }
 }
 

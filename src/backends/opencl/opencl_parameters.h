@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/parameter.h"
 
@@ -19,24 +20,27 @@ struct KernelLayout {
 
 /// The design space of the OpenCL kernels; the same results everywhere in it.
 struct OpenclParameters {
-  static constexpr std::size_t kernels = 19;
+  OpenclParameters();
 
   /// Group, lanes, packets per work-item of each kernel; 0: what suits the device.
-  std::array<std::array<int, 3>, kernels> layouts{};
+  std::vector<std::array<int, 3>> layouts;
   /// Further options of the compiler: for every kernel, and after them each kernel's own.
   std::string build_options;
-  std::array<std::string, kernels> kernel_build_options;
+  std::vector<std::string> kernel_build_options;
 
   ParameterList describe();
   /// Of kernels/NAME.cl, with the defaults of the kind of device filled in. Throws UsageError for
   /// one that no kernel can have.
   KernelLayout layout(std::string_view name, bool on_processor) const;
   /// Throws the same for the first of all kernels, and for build options that define what the
-  /// program defines itself or that end where a name has to follow.
-  void check(bool on_processor) const;
+  /// program defines itself or that end where a name has to follow; whatever the device.
+  void check() const;
   /// All that a user has for the compiler of kernels/NAME.cl. Of two that contradict each other
   /// compilers take the later: the kernel's own.
   std::string build_options_of(std::string_view name) const;
+
+ private:
+  void check_layout(std::size_t row) const;
 };
 
 }  // namespace slambench

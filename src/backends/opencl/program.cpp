@@ -35,10 +35,10 @@ std::string source_of(const std::string& name) {
 /// Of two that contradict each other compilers take the later: the user's options come after those
 /// that may be changed and before the macros, which the launches rely on.
 std::string options_of(const OpenclDevice& device, const KernelLayout& layout,
-                       const std::string& macros, const std::string& further) {
+                       const std::string& macros, const std::string& build_options) {
   std::string options = "-cl-std=CL1.2";
   if (device.divides_exactly) options += " -cl-fp32-correctly-rounded-divide-sqrt";
-  if (!further.empty()) options += " " + further;
+  if (!build_options.empty()) options += " " + build_options;
   options += fmt::format(" -DGROUP={} -DLANES={} -DPACKETS={}", layout.group, layout.lanes,
                          layout.packets);
   if (!macros.empty()) options += " " + macros;
