@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -46,30 +47,68 @@ TEST(Wrapped, BreaksBetweenWords) {
   EXPECT_EQ(wrapped("", 4, 0), "");
 }
 
+/// A pseudo-terminal, seen from the side of who looks at it.
+class Terminal {
+ public:
+  Terminal() : side_(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK)) {
+    is_there_ = side_ >= 0 && ::grantpt(side_) == 0 && ::unlockpt(side_) == 0;
+  }
+  ~Terminal() { ::close(side_); }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+
+  bool is_there() const { return is_there_; }
+  std::string name() const { return ::ptsname(side_); }
+
+  /// What appears until `enough` of it or until whoever wrote has closed the terminal; a minute at
+  /// most. One read returns 4095 bytes, or fewer while more is on its way.
+  template <class Enough>
+  std::string shown(const Enough& enough) {
+    std::string text;
+    for (int waits = 0; waits < 6000 && !enough(text);) {
+      char part[4096];
+      const ssize_t count = ::read(side_, part, sizeof part);
+      if (count > 0) {
+        text.append(part, static_cast<std::size_t>(count));
+      } else if (count == 0 || errno != EAGAIN) {
+        break;
+      } else {
+        ++waits;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      }
+    }
+    return text;
+  }
+  std::string all_shown() {
+    return shown([](const std::string&) { return false; });
+  }
+
+ private:
+  int side_;
+  bool is_there_ = false;
+};
+
 /// Runs the program with standard error at a terminal of its own; returns what appears there.
 class TerminalTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    terminal_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
-    if (terminal_ < 0 || ::grantpt(terminal_) != 0 || ::unlockpt(terminal_) != 0) {
-      GTEST_SKIP() << "no pseudo-terminal here";
-    }
+    if (!terminal_.is_there()) GTEST_SKIP() << "no pseudo-terminal here";
     program_.folder().write("small.raw", testing::small_raw(8));
-    program_.set_error(::ptsname(terminal_));
+    program_.set_error(terminal_.name());
   }
-  void TearDown() override { ::close(terminal_); }
 
-  std::string shown(const std::vector<std::string>& more) {
+  void run(const std::vector<std::string>& more) {
     std::vector<std::string> arguments = testing::small_run();
     arguments.insert(arguments.end(), more.begin(), more.end());
     EXPECT_EQ(program_.run(arguments).status, 0);
-    std::string text(65536, '\0');
-    const ssize_t count = ::read(terminal_, text.data(), text.size());
-    return count > 0 ? text.substr(0, static_cast<std::size_t>(count)) : "";
+  }
+  std::string shown(const std::vector<std::string>& more) {
+    run(more);
+    return terminal_.all_shown();
   }
 
   testing::Program program_{SLAMBENCH_PROGRAM};
-  int terminal_ = -1;
+  Terminal terminal_;
 };
 
 TEST_F(TerminalTest, ShowsProgressAndRemovesIt) {
@@ -86,14 +125,8 @@ TEST_F(TerminalTest, TheSecondInterruptEndsAtOnceAndTheFirstSaysSo) {
   }
   const pid_t child = program_.start(arguments);
   const auto wait_for = [&](const std::string& words) {
-    std::string text;
-    for (int i = 0; i < 6000 && text.find(words) == std::string::npos; ++i) {
-      char part[4096];
-      const ssize_t count = ::read(terminal_, part, sizeof part);
-      if (count > 0) text.append(part, static_cast<std::size_t>(count));
-      if (count <= 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return text;
+    return terminal_.shown(
+        [&](const std::string& text) { return text.find(words) != std::string::npos; });
   };
   wait_for("/8 frames");
   ASSERT_EQ(::kill(child, SIGINT), 0);
@@ -111,20 +144,16 @@ TEST_F(TerminalTest, ShowsNothingWhenNotWanted) {
 }
 
 TEST_F(TerminalTest, ColoursOnlyWhereTheyAreTaken) {
-  const int output = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
-  ASSERT_GE(output, 0);
-  ASSERT_EQ(::grantpt(output) + ::unlockpt(output), 0);
-  program_.set_output(::ptsname(output));
+  Terminal output;
+  ASSERT_TRUE(output.is_there());
+  program_.set_output(output.name());
   const auto summary = [&] {
-    shown({"--force"});
-    std::string text(65536, '\0');
-    const ssize_t count = ::read(output, text.data(), text.size());
-    return count > 0 ? text.substr(0, static_cast<std::size_t>(count)) : "";
+    run({"--force"});
+    return output.all_shown();
   };
   EXPECT_THAT(summary(), HasSubstr("\033["));
   program_.set_environment("NO_COLOR", "1");
   EXPECT_THAT(summary(), AllOf(HasSubstr("raycast"), Not(HasSubstr("\033["))));
-  ::close(output);
 }
 
 }  // namespace

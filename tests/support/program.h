@@ -33,6 +33,7 @@ class Program {
   explicit Program(std::string path) : path_(std::move(path)) {
     environment_["XDG_CACHE_HOME"] = folder_.path("cache");
     environment_["TERM"] = "xterm";
+    environment_["NO_COLOR"] = "";  // as if it were not set
   }
 
   const TemporaryFolder& folder() const { return folder_; }
