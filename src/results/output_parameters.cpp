@@ -14,7 +14,8 @@ ParameterList OutputParameters::describe() {
                            {"force", 0, "", &force, 0, 0,
                             "replace the results of an earlier run in that folder"},
                            {"images", 0, "frames", &images, 0, 1000000,
-                            "save the pictures of every so many frames; 0: none"},
+                            "save the pictures of every so many frames, that of the volume where "
+                            "it was drawn (rendering-rate); 0: none"},
                            {"log-file", 'o', "", &log_file, 0, 0,
                             "write the per-frame log of SLAMBench 1 to this file too"},
                            {"dump-volume", 'd', "", &dump_volume, 0, 0,
