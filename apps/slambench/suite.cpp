@@ -233,33 +233,29 @@ void take_over(const std::string& folder, const SuitePlan& plan, const SuiteBuil
   write_suite(folder, plan.title, plan.configurations, build);
 }
 
-/// Two configurations that a user may want to compare and that compute the same: on one sequence
-/// with one preset, the first and the last. "" when there are no two.
-std::string comparison_example(const std::vector<Configuration>& configurations,
-                               const std::string& folder) {
-  if (configurations.empty()) return "";
-  const Configuration& base = configurations.front();
-  const Configuration* other = nullptr;
-  for (const Configuration& c : configurations) {
-    const bool alike = c.sequence_name == base.sequence_name && c.preset == base.preset;
-    if (alike && &c != &base) other = &c;
+/// What to do next with the results of configurations that have some.
+void suggest(const std::vector<Configuration>& configurations, const std::string& folder,
+             const std::vector<ParameterList>& lists, Page* page) {
+  if (configurations.empty()) return;
+  if (const auto pair = comparable_pair(configurations, lists)) {
+    page->wrapped("compare",
+                  shell_text({"slambench", "compare", fs::path(folder) / pair->first.folder,
+                              fs::path(folder) / pair->second.folder}));
   }
-  if (other == nullptr) return "";
-  return shell_text(
-      {"slambench", "compare", fs::path(folder) / base.folder, fs::path(folder) / other->folder});
+  page->wrapped("report", shell_text({"slambench", "report", folder, "-o", "report.html"}));
 }
 
 /// Throws when something is wrong with the results.
 void report(const SuitePlan& plan, const SuiteRunner& runner, const std::string& folder,
             const std::vector<ParameterList>& lists, bool quiet) {
-  std::vector<Configuration> shown;  // what is left out too, where it has results
+  std::vector<Configuration> with_results;  // what is left out too
   std::vector<ConfigurationResult> results;
   std::vector<std::string> problems;
   for (std::size_t i = 0; i < plan.configurations.size(); ++i) {
     const auto count = std::ranges::count_if(
         runner.done(), [&](const auto& done) { return done.first.configuration == i; });
     if (count == 0 && !plan.configurations[i].runs_today()) continue;
-    shown.push_back(plan.configurations[i]);
+    if (count > 0) with_results.push_back(plan.configurations[i]);
     results.push_back(
         result_of(folder, plan.configurations[i], static_cast<std::size_t>(count), lists));
     if (!results.back().problem.empty()) problems.push_back(results.back().problem);
@@ -269,9 +265,7 @@ void report(const SuitePlan& plan, const SuiteRunner& runner, const std::string&
     page.gap();
     for (const std::string& sentence : plan.left_out()) page.wrapped("left out", sentence);
     page.wrapped("results", folder);
-    const std::string example = comparison_example(shown, folder);
-    if (!example.empty()) page.wrapped("compare", example);
-    page.wrapped("report", shell_text({"slambench", "report", folder, "-o", "report.html"}));
+    suggest(with_results, folder, lists, &page);
     print("\n" + suite_table(results, output_takes_colors()) + std::move(page).text());
   }
   if (!problems.empty()) {
@@ -296,7 +290,7 @@ std::string listing(const SuitePlan& plan, const SuiteRunner& runner, const std:
     auto words = runner.arguments_of(run);
     words.insert(words.begin(), program);
     text += shell_text(words) + "\n";
-    if (run.repetition == 0) text += shell_text({"rm", "-r", words.back().substr(6)}) + "\n";
+    if (run.repetition == 0) text += shell_text({"rm", "-r", runner.folder_of(run)}) + "\n";
   }
   return text;
 }

@@ -60,12 +60,12 @@ void SuiteProgress::fail(const std::string& reason) {
   if (wanted_) print(fmt::format("{} failed: {}\n", head(), reason));
 }
 
-/// "[ 3/60] living-room-2-published-serial/1       "
+/// "[ 3/60] living-room-2-published-serial/1       ", on a terminal with no longer name than fits.
 std::string SuiteProgress::head() const {
   constexpr std::size_t most = 38;
   const std::string total = std::to_string(runs_);
-  const std::string name =
-      name_.size() <= most ? name_ : "..." + name_.substr(name_.size() - most + 3);
+  const bool whole = name_.size() <= most || !output_is_terminal();
+  const std::string name = whole ? name_ : "..." + name_.substr(name_.size() - most + 3);
   return fmt::format("[{:>{}}/{}] {:<{}}", index_ + 1, total.size(), total, name, most);
 }
 

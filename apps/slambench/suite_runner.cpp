@@ -13,8 +13,10 @@
 namespace slambench {
 namespace {
 
-/// The last thing it said, or how it ended.
-std::string failure_text(const ChildOutcome& outcome) {
+/// The last thing it said, or how it ended. Its results were at `path` and are now at `kept`,
+/// unless that is "".
+std::string failure_text(const ChildOutcome& outcome, const std::string& path,
+                         const std::string& kept) {
   constexpr int signals = 128;
   if (outcome.status > signals) return fmt::format("ended by signal {}", outcome.status - signals);
   std::string text = outcome.err;
@@ -22,6 +24,8 @@ std::string failure_text(const ChildOutcome& outcome) {
   text = text.substr(text.rfind('\n') + 1);
   constexpr std::string_view prefix = "slambench: ";
   if (text.starts_with(prefix)) text = text.substr(prefix.size());
+  const std::size_t named = kept.empty() ? std::string::npos : text.rfind(path);
+  if (named != std::string::npos) text.replace(named, path.size(), kept);
   return fmt::format("status {}{}{}", outcome.status, text.empty() ? "" : ": ", text);
 }
 
@@ -47,7 +51,7 @@ SuiteRunner::SuiteRunner(const std::string& program, std::string folder,
 
 std::vector<std::string> SuiteRunner::arguments_of(const PlannedRun& run) const {
   auto words = run_arguments(of(run));
-  words.push_back("--out=" + run_folder(folder_, of(run), run));
+  words.push_back("--out=" + folder_of(run));
   return words;
 }
 
@@ -74,7 +78,7 @@ std::optional<double> SuiteRunner::expected_s(std::size_t from) const {
 
 void SuiteRunner::run_one(std::size_t i, const InterruptFlag& interrupt, SuiteProgress* progress) {
   const PlannedRun& run = runs_[i];
-  const std::string path = run_folder(folder_, of(run), run);
+  const std::string path = folder_of(run);
   auto words = arguments_of(run);
   words.push_back("--quiet");
   progress->begin(i, run_name(of(run), run), expected_s(i));
@@ -89,9 +93,9 @@ void SuiteRunner::run_one(std::size_t i, const InterruptFlag& interrupt, SuitePr
     progress->end(value_of("time.fps_computation", stored), expected_s(i + 1));
     if (run.repetition > 0) results_.done[run] = cost;
   } else {
-    discard_results(folder_, path);
+    const std::string kept = discard_results(folder_, path);
     if (interrupt.raised().load()) return;
-    const std::string reason = failure_text(outcome);
+    const std::string reason = failure_text(outcome, path, kept);
     failures_.push_back(fmt::format("{} ({})", run_name(of(run), run), reason));
     progress->fail(reason);
   }

@@ -30,6 +30,8 @@ class SuiteRunner {
   /// A sentence for each run that failed.
   const std::vector<std::string>& failures() const { return failures_; }
 
+  /// Where the results of a run belong.
+  std::string folder_of(const PlannedRun& run) const { return run_folder(folder_, of(run), run); }
   /// What stands after "slambench".
   std::vector<std::string> arguments_of(const PlannedRun& run) const;
   /// Until all runs have had their turn or the interrupt is raised.

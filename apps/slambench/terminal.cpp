@@ -57,6 +57,8 @@ void print(std::string_view text) {
 
 void print_error(std::string_view text) { write_all(STDERR_FILENO, text); }
 
+bool output_is_terminal() { return is_terminal(STDOUT_FILENO); }
+
 bool error_is_terminal() { return is_terminal(STDERR_FILENO); }
 
 bool output_takes_colors() {

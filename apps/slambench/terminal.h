@@ -20,6 +20,9 @@ void print_error(std::string_view text);
 /// Whether standard error is a terminal whose line can be redrawn.
 bool error_is_terminal();
 
+/// Whether standard output is a terminal, whose lines end at its width.
+bool output_is_terminal();
+
 /// Whether standard output is a terminal that takes colours and the user has nothing against them
 /// (https://no-color.org).
 bool output_takes_colors();

@@ -348,19 +348,17 @@ std::string put_away(const std::string& folder, const std::string& place, const 
   return to;
 }
 
-void discard_results(const std::string& folder, const std::string& path) {
+std::string discard_results(const std::string& folder, const std::string& path) {
   std::error_code error;
-  if (fs::symlink_status(path, error).type() != fs::file_type::directory) return;  // not ours
+  if (fs::symlink_status(path, error).type() != fs::file_type::directory) return "";  // not ours
   bool complete = false;
   try {
     complete = read_stored_run(path).complete();
   } catch (const InputError&) {  // it is half
   }
-  if (complete) {
-    put_away(folder, "failed", path);
-  } else {
-    fs::remove_all(path, error);
-  }
+  if (complete) return put_away(folder, "failed", path);
+  fs::remove_all(path, error);
+  return "";
 }
 
 }  // namespace slambench

@@ -84,7 +84,8 @@ void remove_suite_leftovers(const std::string& folder);
 std::string put_away(const std::string& folder, const std::string& place, const std::string& path);
 
 /// Removes what a run left at `path` without coming to its end, and moves results that are complete
-/// but do not count to FOLDER/.failed, as they say why. Nothing that is no folder is touched.
-void discard_results(const std::string& folder, const std::string& path);
+/// but do not count to FOLDER/.failed, as they say why. Returns where these are now, else "".
+/// Nothing that is no folder is touched.
+std::string discard_results(const std::string& folder, const std::string& path);
 
 }  // namespace slambench

@@ -292,6 +292,24 @@ std::vector<std::string> run_arguments(const Configuration& configuration) {
   return words;
 }
 
+std::optional<std::pair<Configuration, Configuration>> comparable_pair(
+    const std::vector<Configuration>& configurations, const Lists& lists) {
+  const auto same_task = [&](const Configuration& a, const Configuration& b) {
+    if (a.sequence_name != b.sequence_name || a.preset != b.preset) return false;
+    return std::ranges::all_of(lists, [&](const ParameterList& list) {
+      return std::ranges::all_of(list.parameters, [&](const Parameter& p) {
+        return p.role != ParameterRole::task || a.value(p.name) == b.value(p.name);
+      });
+    });
+  };
+  for (auto base = configurations.begin(); base != configurations.end(); ++base) {
+    for (auto other = configurations.end(); --other != base;) {
+      if (same_task(*base, *other)) return std::pair(*base, *other);
+    }
+  }
+  return std::nullopt;
+}
+
 std::vector<std::string> input_of(const Configuration& configuration, const Lists& lists) {
   std::vector<std::string> words = {configuration.sequence, configuration.preset};
   for (const ParameterList& list : lists) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "suite/suite_file.h"
@@ -62,6 +63,12 @@ std::vector<std::string> lists_without_selection(const SuiteFile& file,
 
 /// What stands after "slambench", but for the folder of the results.
 std::vector<std::string> run_arguments(const Configuration& configuration);
+
+/// Two configurations whose runs `slambench compare` takes: on one sequence, with one preset and
+/// the same values of all that decides what is computed. The first that has such another one, and
+/// the last of these; nothing when there are no two.
+std::optional<std::pair<Configuration, Configuration>> comparable_pair(
+    const std::vector<Configuration>& configurations, const std::vector<ParameterList>& lists);
 
 /// What decides over which frames it runs: equal for two configurations, these see the same.
 std::vector<std::string> input_of(const Configuration& configuration,

@@ -216,6 +216,31 @@ TEST_F(SuiteTest, AFailedRunIsToldAndTriedAgainAndTheOthersGoOn) {
   }
 }
 
+TEST_F(SuiteTest, ARunThatDoesNotCountSaysWhereItIs) {
+  suite("sequence = 'small.raw'\n[backend]\nbackend = 'serial'\n");
+  const testing::Outcome outcome = run({"--frames", "3"});
+  EXPECT_EQ(outcome.status, 1);
+  const std::string place = "see out/.failed/small.raw-1";
+  EXPECT_THAT(outcome.err, HasSubstr(place));
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr(place), Not(HasSubstr("report "))))
+      << "there are no results to make one of";
+  EXPECT_TRUE(fs::exists(path("out/.failed/small.raw-1/record.json")));
+}
+
+TEST_F(SuiteTest, TheComparisonThatIsSuggestedIsNotRefused) {
+  suite(
+      "sequence = 'small.raw'\n[matrix]\nbackend = ['serial', 'openmp']\n"
+      "max-weight = [100, 50]\n");
+  const testing::Outcome outcome = run();
+  EXPECT_THAT(outcome.out, HasSubstr("slambench compare out/small.raw-serial-max-weight-100\n"
+                                     "            out/small.raw-openmp-max-weight-100\n"));
+  EXPECT_EQ(program_
+                .run({"compare", "out/small.raw-serial-max-weight-100",
+                      "out/small.raw-openmp-max-weight-100"})
+                .status,
+            0);
+}
+
 TEST_F(SuiteTest, QuietSaysWhyRunsFail) {
   suite("sequence = 'small.raw'\n[matrix]\nbackend = ['serial']\nmap = ['grid']\n");
   fs::create_directories(path("out"));

@@ -109,8 +109,12 @@ TEST_F(SuiteFolderTest, OnlyCompleteResultsThatDoNotCountAreKept) {
   write_result("a/1", "abc");
   folder_.write("out/a/2/record.json", "{\"format\": \"slamb");
   folder_.write("out/a/3", "a file");
-  for (const char* place : {"a/1", "a/2", "a/3", "a/4"}) discard_results(out_, out_ + "/" + place);
   namespace fs = std::filesystem;
+  const std::string kept = discard_results(out_, out_ + "/a/1");
+  EXPECT_TRUE(fs::exists(kept + "/record.json")) << kept;
+  for (const char* place : {"a/2", "a/3", "a/4"}) {
+    EXPECT_EQ(discard_results(out_, out_ + "/" + place), "") << place;
+  }
   EXPECT_FALSE(fs::exists(out_ + "/a/1"));
   EXPECT_FALSE(fs::exists(out_ + "/a/2"));
   EXPECT_TRUE(fs::exists(out_ + "/a/3")) << "not what a run leaves";

@@ -154,6 +154,23 @@ TEST_F(SuitePlanTest, FoldersAreNoFilesOfTheSuiteAndNotTooLong) {
   }
 }
 
+TEST_F(SuitePlanTest, APairToCompareComputesTheSame) {
+  const auto pair = [&](std::string_view text) {
+    const auto found = comparable_pair(plan(text), lists_);
+    return found ? Words{found->first.folder, found->second.folder} : Words{};
+  };
+  EXPECT_THAT(pair("sequence = ['a', 'b']\n[matrix]\nbackend = ['serial', 'openmp']\n"
+                   "volume-resolution = [64, 32]\n"),
+              ElementsAre("a-serial-volume-resolution-64", "a-openmp-volume-resolution-64"));
+  EXPECT_THAT(pair("sequence = ['a', 'b']\n[matrix]\nmu = [0.1, 0.2]\n"), IsEmpty());
+  EXPECT_THAT(pair("sequence = 'a'\n"), IsEmpty());
+  EXPECT_THAT(pair("sequence = 'a'\n[[group]]\nname = 'one'\npreset = 'fast'\n"
+                   "[[group]]\nname = 'two'\npreset = 'slambench1'\n"
+                   "[[group]]\nname = 'three'\npreset = 'slambench1'\nbackend = {threads = 1}\n"),
+              ElementsAre("a-two", "a-three"))
+      << "not always the first";
+}
+
 TEST_F(SuitePlanTest, AMatrixIsOfAReasonableSize) {
   std::string values = "1";
   for (int i = 2; i <= 101; ++i) values += fmt::format(", {}", i);
