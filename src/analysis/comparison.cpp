@@ -14,9 +14,6 @@
 namespace slambench {
 namespace {
 
-/// Fewer pairs leave too little to estimate their scatter from.
-constexpr std::size_t least_pairs = 6;
-
 /// An interval whose ends are further apart than this factor tells nothing.
 constexpr double widest = 1000;
 

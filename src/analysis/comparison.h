@@ -33,6 +33,10 @@ struct FigureComparison {
   Verdict verdict = Verdict::no_difference;
 };
 
+/// Runs on each side that are compared in pairs when they took turns: fewer pairs leave too little
+/// to estimate their scatter from.
+inline constexpr std::size_t least_pairs = 6;
+
 /// Where the intervals come from.
 enum class Evidence {
   frames,  ///< a single run on each side: its frames

@@ -178,10 +178,13 @@ std::vector<std::string> notes(const Comparison& c) {
         "its frames, or no figure that varies.");
     return list;
   }
-  const std::string together = fmt::format(
-      "All {} intervals hold together with {:g} % confidence (Bonferroni): each is "
-      "wider than it would be alone. --figure looks at fewer.",
-      c.intervals, 100 * c.confidence);
+  const std::string together =
+      c.intervals == 1
+          ? fmt::format("The interval holds with {:g} % confidence.", 100 * c.confidence)
+          : fmt::format(
+                "All {} intervals hold together with {:g} % confidence (Bonferroni): each is "
+                "wider than it would be alone. --figure looks at fewer.",
+                c.intervals, 100 * c.confidence);
   switch (c.evidence) {
     case Evidence::frames:
       list.push_back(fmt::format(
@@ -193,9 +196,13 @@ std::vector<std::string> notes(const Comparison& c) {
       break;
     case Evidence::runs:
       list.push_back(fmt::format(
-          "Intervals: Welch's, of the logarithms of {} and {} runs. The runs did not take turns "
-          "(at least 6 each): what changed on the machine meanwhile looks like a difference.",
-          c.base.runs, c.other.runs));
+          "Intervals: Welch's, of the logarithms of {} and {} runs. The runs {}: what changed "
+          "on the machine meanwhile looks like a difference.",
+          c.base.runs, c.other.runs,
+          std::min(c.base.runs, c.other.runs) < least_pairs
+              ? fmt::format("are too few to be taken in pairs ({} on each side that took turns)",
+                            least_pairs)
+              : "did not take turns"));
       break;
     case Evidence::pairs:
       list.push_back(fmt::format(

@@ -30,13 +30,28 @@ struct Configuration {
   std::vector<const ExportRun*> runs;
 };
 
-/// A command for a shell that exports one run by itself.
-std::string command_for(const ExportRun& each) {
-  std::string file = each.name;
+/// A command for a shell that exports a run without what it cannot share a file with: with the
+/// others of the folder that holds it, when all that were given of these are its repeats.
+std::string command_for(const ExportRun& each, const std::vector<ExportRun>& runs,
+                        const ParameterRoles& roles) {
+  const auto folder = [](const ExportRun& run) {
+    return std::filesystem::path(run.run.path).parent_path();
+  };
+  const auto fits = [&](const ExportRun& other) {
+    return folder(other).parent_path() != folder(each).parent_path() ||
+           differences(each.run, other.run, roles).empty();
+  };
+  const bool repeated = std::ranges::count(runs, folder(each).parent_path(), [&](const auto& run) {
+                          return folder(run).parent_path();
+                        }) > 1;
+  std::string file = each.name, what = folder(each).string();
+  if (repeated && std::ranges::all_of(runs, fits)) {
+    what = folder(each).parent_path().string();
+    file = folder(each).parent_path().filename().string();
+  }
   std::replace(file.begin(), file.end(), '/', '-');
-  return shell_text({"slambench", "export",
-                     std::filesystem::path(each.run.path).parent_path().string(), "--format",
-                     "google-benchmark", "-o", file + ".json"});
+  return shell_text(
+      {"slambench", "export", what, "--format", "google-benchmark", "-o", file + ".json"});
 }
 
 /// "living-room/2", with the backend where runs of several are there: two files of one backend each
@@ -63,7 +78,8 @@ std::vector<Configuration> configurations(const std::vector<ExportRun>& runs,
     throw InputError(fmt::format(
         "{} and {} would have the same names in one file and are no repeats of one another: they "
         "differ in {}; export them to files of their own: {} && {}",
-        first.run.path, each.run.path, list_text(differ), command_for(first), command_for(each)));
+        first.run.path, each.run.path, list_text(differ), command_for(first, runs, roles),
+        command_for(each, runs, roles)));
   }
   return all;
 }

@@ -23,6 +23,17 @@ bool finite(const FrameRecord& frame) { return frame.T_start_camera.matrix().all
 
 bool usable(const FrameRecord& frame) { return !frame.dropped && finite(frame); }
 
+/// The first frames are fused where the camera starts, so that there is a model to track the next
+/// one against: whoever gives no more of them is told so. "" when there were more.
+std::string too_few_to_track(const Record& record, long processed) {
+  for (const UsedParameter& p : record.parameters) {
+    if (p.name != "bootstrap-frames" || processed > std::atol(p.value.c_str())) continue;
+    return fmt::format(": {} were processed, and the first {} (--bootstrap-frames) never are",
+                       processed, p.value);
+  }
+  return "";
+}
+
 void judge_validity(Record* record) {
   const auto count = [&](auto&& which) {
     return std::count_if(record->frames.begin(), record->frames.end(), which);
@@ -34,7 +45,7 @@ void judge_validity(Record* record) {
   if (processed == 0) {
     reasons.emplace_back("no frame was processed");
   } else if (tracked == 0) {
-    reasons.emplace_back("no frame was tracked");
+    reasons.push_back("no frame was tracked" + too_few_to_track(*record, processed));
   }
   if (broken > 0) {
     const auto first = std::find_if(record->frames.begin(), record->frames.end(),

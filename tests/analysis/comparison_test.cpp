@@ -150,8 +150,19 @@ TEST(Compare, TakesPairsOnlyOfRunsThatTookTurns) {
     run.texts["provenance.started_at"] = "2016-05-26T09:00:00Z";
   }
   EXPECT_EQ(compare(two.base, two.other, {}).evidence, Evidence::runs);
+  const auto no_turns = ContainsRegex("did\\s+not\\s+take\\s+turns");
+  EXPECT_THAT(comparison_text({compare(two.base, two.other, {})}), no_turns);
   two.other.runs.resize(2);
   EXPECT_EQ(compare(two.base, two.other, {}).evidence, Evidence::runs);
+}
+
+TEST(Compare, SaysWhenRunsThatTookTurnsAreTooFew) {
+  const Two two = interleaved(1, 1, 3);
+  const Comparison c = compare(two.base, two.other, {.figures = {"fps"}});
+  EXPECT_EQ(c.evidence, Evidence::runs);
+  EXPECT_THAT(comparison_text({c}),
+              AllOf(ContainsRegex("too\\s+few\\s+to\\s+be\\s+taken\\s+in\\s+pairs"),
+                    HasSubstr("The interval holds with 95 % confidence.")));
 }
 
 TEST(Compare, CallsNothingShownBySingleRuns) {

@@ -115,6 +115,23 @@ TEST_F(GoogleBenchmarkTest, RefusesWhatWouldBeMixedUpOrDoesNotCount) {
   EXPECT_THAT(refusal({other}), HasSubstr("has no times: "));
 }
 
+TEST_F(GoogleBenchmarkTest, ARefusalKeepsRepeatsTogether) {
+  Record other = single_record();
+  other.parameters[1].value = "4,4,4";
+  std::vector<std::string> paths;
+  for (const char* place : {"coarse/1", "coarse/2", "fine's/1", "fine's/2"}) {
+    paths.push_back(folder_.path(place));
+    std::filesystem::create_directories(std::filesystem::path(paths.back()).parent_path());
+    write_results(paths.back(), true, place[0] == 'c' ? single_record() : other);
+  }
+  const std::string refused =
+      message_of<InputError>([&] { google_benchmark_json(read_export_runs(paths), roles_of({})); });
+  EXPECT_THAT(refused, HasSubstr("slambench export " + folder_.path("coarse") +
+                                 " --format google-benchmark -o coarse.json && slambench export '" +
+                                 folder_.path("fine'\\''s") +
+                                 "' --format google-benchmark -o 'fine'\\''s.json'"));
+}
+
 /// The script needs scipy, which evo needs too: SLAMBENCH_EVO_PYTHON, else python3.
 TEST_F(GoogleBenchmarkTest, TheScriptOfGoogleBenchmarkComparesTwo) {
   if (std::string(SLAMBENCH_COMPARE_PY).empty()) GTEST_SKIP() << "libbenchmark-tools is missing";

@@ -263,6 +263,18 @@ TEST(Judge, NothingTrackedOrProcessedIsInvalid) {
   EXPECT_FALSE(record.valid);
   EXPECT_THAT(record.invalid_reasons, ::testing::ElementsAre("no frame was tracked"));
 
+  for (const char* first : {"9", "10"}) {
+    Record few = record;
+    few.invalid_reasons.clear();
+    few.parameters = {{"kinectfusion", "bootstrap-frames", "frames", first, "default"}};
+    judge(sequence_of(truth), &few);
+    EXPECT_THAT(few.invalid_reasons,
+                ::testing::ElementsAre(first == std::string("9")
+                                           ? "no frame was tracked"
+                                           : "no frame was tracked: 10 were processed, and the "
+                                             "first 10 (--bootstrap-frames) never are"));
+  }
+
   Record none;
   none.complete = false;
   judge(sequence_of(truth), &none);
