@@ -20,7 +20,7 @@ constexpr std::size_t alignment = 64;
 constexpr std::size_t huge_page = std::size_t{2} << 20;
 
 constexpr std::size_t rounded_up(std::size_t bytes, std::size_t unit) {
-  return (std::max<std::size_t>(bytes, 1) + unit - 1) / unit * unit;
+  return (bytes + unit - 1) / unit * unit;
 }
 
 std::string processor_name() {
@@ -77,10 +77,9 @@ void write_bricks(BrickVolume& destination, const Voxel* source, Int3 n) {
 HostStorage::HostStorage(std::size_t bytes) : data_(nullptr), bytes_(bytes) {
   const bool huge = bytes >= 2 * huge_page;
   const std::size_t unit = huge ? huge_page : alignment;
-  const std::size_t rounded = rounded_up(bytes, unit);
+  const std::size_t rounded = rounded_up(bytes + slack, alignment);
   require_memory(rounded);
-  data_ = std::aligned_alloc(unit, rounded);
-  if (data_ == nullptr) {
+  if (posix_memalign(&data_, unit, rounded) != 0) {
     throw UnavailableError(fmt::format("memory: the system refuses {} MiB", rounded >> 20));
   }
   if (huge) ask_for_huge_pages(data_, rounded);

@@ -13,6 +13,9 @@ namespace slambench {
 /// Zeroed memory of the host, aligned for any SIMD type.
 class HostStorage final : public Storage {
  public:
+  /// Bytes behind the last one that may be read, by vectors that reach beyond an image.
+  static constexpr std::size_t slack = 4;
+
   /// Throws UnavailableError when the machine has less than that available.
   explicit HostStorage(std::size_t bytes);
   ~HostStorage() override;

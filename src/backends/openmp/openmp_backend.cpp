@@ -99,8 +99,8 @@ void OpenmpBackend::do_track(DeviceImage<TrackData>& rows, const DeviceImage<Flo
                              const DeviceImage<Float3>& model_normals,
                              const TrackParameters& parameters) {
   const TrackInput input = {
-      pixels(vertices),      pixels(normals), vertices.size,       pixels(model_vertices),
-      pixels(model_normals), nullptr,         model_vertices.size, parameters};
+      pixels(vertices),      pixels(normals),     vertices.size, pixels(model_vertices),
+      pixels(model_normals), model_vertices.size, parameters};
   for_rows(rows.size.height, [&](Rows part) { track_rows(pixels(rows), input, part); });
 }
 
@@ -113,22 +113,12 @@ Twist OpenmpBackend::do_solve(const Reduction& reduction, double condition) {
   return solve_motion_quickly(reduction, condition);
 }
 
-const ModelPoint* OpenmpBackend::packed_model(const DeviceImage<Float3>& vertices,
-                                              const DeviceImage<Float3>& normals) {
-  model_.resize(vertices.size.count());
-  for_rows(vertices.size.height, [&](Rows rows) {
-    pack_model_rows(model_.data(), pixels(vertices), pixels(normals), vertices.size, rows);
-  });
-  return model_.data();
-}
-
 AlignResult OpenmpBackend::do_align(const AlignInput& input, double condition) {
   TrackInput track = {nullptr,
                       nullptr,
                       {},
                       pixels(*input.model_vertices),
                       pixels(*input.model_normals),
-                      packed_model(*input.model_vertices, *input.model_normals),
                       input.model_vertices->size,
                       input.parameters};
   const auto match = [&](std::size_t level, const TrackParameters& at) {

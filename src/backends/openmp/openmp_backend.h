@@ -68,8 +68,6 @@ class OpenmpBackend final : public HostBackend {
   /// The sums of f(band) over the bands of an image, in their order.
   template <class F>
   Reduction sum_bands(Size size, const F& f);
-  const ModelPoint* packed_model(const DeviceImage<Float3>& vertices,
-                                 const DeviceImage<Float3>& normals);
   void integrate_bricks(BrickVolume& volume, const IntegrateInput& input);
   /// raycast in parallel.
   void march(RaycastOutput output, const Volume& volume, const RaycastParameters& parameters);
@@ -79,7 +77,6 @@ class OpenmpBackend final : public HostBackend {
              const Float3* normals) const;
 
   Parallel parallel_;
-  std::vector<ModelPoint> model_;               ///< of the alignment in progress
   std::vector<Reduction> bands_;                ///< of the reduction in progress
   DepthPyramid depth_;                          ///< of the integration in progress
   std::vector<std::vector<BrickWork>> slices_;  ///< what it has to do, per slice of bricks

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "backends/host/host_backend.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "backends/openmp/track_kernels.cpp"
 #include "hwy/foreach_target.h"
@@ -34,67 +36,69 @@ HWY_INLINE Ints outcome_where(FloatMask mask, TrackOutcome yes, Ints no) {
   return hn::IfThenElse(hn::RebindMask(i32, mask), set_int(static_cast<int>(yes)), no);
 }
 
-#if HWY_TARGET != HWY_SCALAR
-/// A vector of blocks of 16 bytes: half of the points with the 0th, 4th, 8th... index.
+#if HWY_TARGET == HWY_SCALAR
+HWY_INLINE Vec3 read(const Float3* points, Ints index) { return gather(points, index); }
+#else
+/// A vector of blocks of 16 bytes: those that start at the 0th, 4th, 8th... of the points.
 template <class D>
-HWY_INLINE hn::Vec<D> load_blocks(D d, const float* half, const std::int32_t* index) {
+HWY_INLINE hn::Vec<D> load_blocks(D d, const Float3* points, const std::int32_t* index) {
   if constexpr (hn::MaxLanes(d) <= 4) {
-    return hn::LoadU(d, half + static_cast<std::ptrdiff_t>(8) * index[0]);
+    return hn::LoadU(d, &points[index[0]].x);
   } else {
     const hn::Half<D> part;
-    return hn::Combine(d, load_blocks(part, half, index + hn::MaxLanes(part)),
-                       load_blocks(part, half, index));
+    return hn::Combine(d, load_blocks(part, points, index + hn::MaxLanes(part)),
+                       load_blocks(part, points, index));
   }
 }
 
-/// Four fields of the points, a vector each: `half` points to the first of them in the first point.
-HWY_INLINE void read_fields(const float* half, const std::int32_t* index, Floats (*field)[4]) {
-  const hn::RepartitionToWide<hn::RebindToUnsigned<FloatTag>> u64;
+/// The points at an index a lane, read as blocks of 16 bytes: quicker than gathers.
+HWY_INLINE Vec3 read(const Float3* points, Ints index_lanes) {
+  static_assert(sizeof(Float3) == 12 && HostStorage::slack >= 4);
+  alignas(64) std::int32_t index[virtual_lanes];
+  hn::Store(index_lanes, i32, index);
+  const hn::RepartitionToWide<hn::RebindToUnsigned<FloatTag> > u64;
   const auto wide = [&](Floats v) { return hn::BitCast(u64, v); };
-  const Floats a = load_blocks(f32, half, index), b = load_blocks(f32, half, index + 1);
-  const Floats c = load_blocks(f32, half, index + 2), d = load_blocks(f32, half, index + 3);
+  const Floats a = load_blocks(f32, points, index), b = load_blocks(f32, points, index + 1);
+  const Floats c = load_blocks(f32, points, index + 2), d = load_blocks(f32, points, index + 3);
   const auto ab = wide(hn::InterleaveLower(f32, a, b)), cd = wide(hn::InterleaveLower(f32, c, d));
-  (*field)[0] = hn::BitCast(f32, hn::InterleaveLower(u64, ab, cd));
-  (*field)[1] = hn::BitCast(f32, hn::InterleaveUpper(u64, ab, cd));
   const auto ab2 = wide(hn::InterleaveUpper(f32, a, b)), cd2 = wide(hn::InterleaveUpper(f32, c, d));
-  (*field)[2] = hn::BitCast(f32, hn::InterleaveLower(u64, ab2, cd2));
-  (*field)[3] = hn::BitCast(f32, hn::InterleaveUpper(u64, ab2, cd2));
+  return {hn::BitCast(f32, hn::InterleaveLower(u64, ab, cd)),
+          hn::BitCast(f32, hn::InterleaveUpper(u64, ab, cd)),
+          hn::BitCast(f32, hn::InterleaveLower(u64, ab2, cd2))};
 }
-
 #endif
 
-/// The model's points and normals at a pixel a lane.
-HWY_INLINE void read_model(const TrackInput& in, Ints pixel, Vec3* vertex, Vec3* normal) {
-#if HWY_TARGET != HWY_SCALAR
-  if (in.model != nullptr) {
-    alignas(64) std::int32_t index[virtual_lanes];
-    hn::Store(pixel, i32, index);
-    const auto* points = reinterpret_cast<const float*>(in.model);
-    Floats field[4];
-    read_fields(points, index, &field);
-    *vertex = {field[0], field[1], field[2]};
-    normal->x = field[3];
-    read_fields(points + 4, index, &field);
-    normal->y = field[0], normal->z = field[1];
-    return;
-  }
-#endif
-  *vertex = gather(in.model_vertices, pixel);
-  *normal = gather(in.model_normals, pixel);
-}
+/// A step of the alignment is taken for so many vectors before the next step: within a vector each
+/// step waits for the one before, but the processor works on several vectors at once.
+constexpr int batch = 32;
 
-/// slambench::track_point.
-HWY_INLINE TrackLanes track_lanes(Vec3 vertex, Vec3 normal, const TrackInput& in) {
+/// A live point in the volume's frame and the pixel that shows it in the model, negative where none
+/// does.
+struct Associated {
+  Vec3 point;
+  Ints pixel;
+};
+
+HWY_INLINE Associated associate(Vec3 vertex, const TrackInput& in) {
   const TrackParameters& p = in.parameters;
-  const FloatMask valid = hn::Ne(normal.x, set(invalid_normal));
   const Vec3 point = apply(p.T_volume_camera, vertex);
   Ints x, y;
   const FloatMask inside = project(apply(p.T_model_volume, point), p.model_camera, in.model_size,
                                    min_projection_depth_m, &x, &y);
   const Ints pixel = hn::Add(hn::Mul(y, set_int(in.model_size.width)), x);
-  Vec3 model_vertex, model_normal;
-  read_model(in, pixel, &model_vertex, &model_normal);
+  return {point, hn::IfThenElse(hn::RebindMask(i32, inside), pixel, set_int(-1))};
+}
+
+/// The end of slambench::track_point.
+HWY_INLINE TrackLanes compare(const Associated& live, Vec3 normal, const TrackInput& in) {
+  const TrackParameters& p = in.parameters;
+  const Vec3 point = live.point;
+  const Ints pixel = hn::Max(live.pixel, hn::Zero(i32));
+  const Vec3 model_vertex = read(in.model_vertices, pixel);
+  const Vec3 model_normal = read(in.model_normals, pixel);
   const Vec3 difference = sub(model_vertex, point);
+  const FloatMask valid = hn::Ne(normal.x, set(invalid_normal));
+  const FloatMask inside = hn::RebindMask(f32, hn::Gt(live.pixel, set_int(-1)));
   const FloatMask modelled = hn::Ne(model_normal.x, set(invalid_normal));
   const FloatMask near = hn::Le(length(difference), set(p.distance_threshold_m));
   const FloatMask parallel =
@@ -114,15 +118,33 @@ HWY_INLINE TrackLanes track_lanes(Vec3 vertex, Vec3 normal, const TrackInput& in
           select(ok, model_normal, none), select(ok, cross(point, model_normal), none)};
 }
 
-/// Lanes of a row that starts at `vertices` and has `count` pixels left.
-HWY_INLINE TrackLanes track_row_lanes(const Float3* vertices, const Float3* normals, int count,
-                                      const TrackInput& in) {
-  if (count >= lanes()) return track_lanes(load(vertices), load(normals), in);
-  Float3 vertex[virtual_lanes], normal[virtual_lanes];
-  std::fill_n(normal, lanes(), Float3{invalid_normal, 0.0f, 0.0f});
-  std::copy_n(vertices, count, vertex);
-  std::copy_n(normals, count, normal);
-  return track_lanes(load(vertex), load(normal), in);
+/// The first `count` of a vector; `other` in its other lanes.
+HWY_INLINE Vec3 load_first(const Float3* points, int count, Float3 other) {
+  if (count >= lanes()) return load(points);
+  Float3 padded[virtual_lanes];
+  std::fill_n(padded, lanes(), other);
+  std::copy_n(points, count, padded);
+  return load(padded);
+}
+
+/// slambench::track_point for at most a batch of vectors `stride` pixels apart along row y, from x
+/// on; returns how many there are. Lanes beyond the row have no input.
+HWY_INLINE int track_vectors(const TrackInput& in, int x, int y, int stride, TrackLanes* tracked) {
+  const int count = std::min(batch, (in.size.width - x + stride - 1) / stride);
+  const Float3* vertices = in.vertices + index(in.size, x, y);
+  const Float3* normals = in.normals + index(in.size, x, y);
+  Associated associated[batch];
+  for (int i = 0; i < count; ++i) {
+    const int at = i * stride;
+    associated[i] = associate(load_first(vertices + at, in.size.width - x - at, {}), in);
+  }
+  for (int i = 0; i < count; ++i) {
+    const int at = i * stride;
+    const Vec3 normal =
+        load_first(normals + at, in.size.width - x - at, {invalid_normal, 0.0f, 0.0f});
+    tracked[i] = compare(associated[i], normal, in);
+  }
+  return count;
 }
 
 void store_lanes(const TrackLanes& row, int count, TrackData* out) {
@@ -174,26 +196,41 @@ TrackLanes load_lanes(const TrackData* rows, int count) {
 
 /// The sums of a band, a lane each.
 struct Sums {
-  Floats squared_error, jt_error[6], jt_j[21];
+  Floats squared_error, jt_error[6], jt_j[6][6];  ///< of the latter the upper triangle
   std::int64_t inliers = 0, too_far = 0, wrong_normal = 0;
 
   Sums() : squared_error(hn::Zero(f32)) {
     for (Floats& sum : jt_error) sum = hn::Zero(f32);
-    for (Floats& sum : jt_j) sum = hn::Zero(f32);
+    for (auto& row : jt_j) {
+      for (Floats& sum : row) sum = hn::Zero(f32);
+    }
   }
 
-  HWY_INLINE void add(const TrackLanes& row) {
-    const Floats j[6] = {row.normal.x, row.normal.y, row.normal.z,
-                         row.moment.x, row.moment.y, row.moment.z};
-    squared_error = hn::MulAdd(row.error, row.error, squared_error);
-    Floats* entry = jt_j;
-    for (int a = 0; a < 6; ++a) {
-      jt_error[a] = hn::MulAdd(row.error, j[a], jt_error[a]);
-      for (int b = a; b < 6; ++b, ++entry) *entry = hn::MulAdd(j[a], j[b], *entry);
+  void add(const TrackLanes* rows, int n) {
+    add_row<0>(rows, n), add_row<1>(rows, n), add_row<2>(rows, n);
+    add_row<3>(rows, n), add_row<4>(rows, n), add_row<5>(rows, n);
+    for (int i = 0; i < n; ++i) {
+      squared_error = hn::MulAdd(rows[i].error, rows[i].error, squared_error);
+      inliers += count(rows[i].outcome, TrackOutcome::ok);
+      too_far += count(rows[i].outcome, TrackOutcome::too_far);
+      wrong_normal += count(rows[i].outcome, TrackOutcome::wrong_normal);
     }
-    inliers += count(row.outcome, TrackOutcome::ok);
-    too_far += count(row.outcome, TrackOutcome::too_far);
-    wrong_normal += count(row.outcome, TrackOutcome::wrong_normal);
+  }
+
+  /// A row of the matrix at a time, so that its sums stay in registers.
+  template <int a>
+  HWY_INLINE void add_row(const TrackLanes* rows, int n) {
+    Floats error = jt_error[a], sums[6 - a];
+    std::copy(jt_j[a] + a, jt_j[a] + 6, sums);
+    for (int i = 0; i < n; ++i) {
+      const TrackLanes& row = rows[i];
+      const Floats j[6] = {row.normal.x, row.normal.y, row.normal.z,
+                           row.moment.x, row.moment.y, row.moment.z};
+      error = hn::MulAdd(row.error, j[a], error);
+      for (int b = a; b < 6; ++b) sums[b - a] = hn::MulAdd(j[a], j[b], sums[b - a]);
+    }
+    jt_error[a] = error;
+    std::copy(sums, sums + 6 - a, jt_j[a] + a);
   }
 
   static HWY_INLINE std::int64_t count(Ints outcome, TrackOutcome which) {
@@ -205,7 +242,10 @@ struct Sums {
   void add_to(Reduction* sum) const {
     add_lanes(squared_error, &sum->squared_error);
     for (int i = 0; i < 6; ++i) add_lanes(jt_error[i], &sum->jt_error[i]);
-    for (int i = 0; i < 21; ++i) add_lanes(jt_j[i], &sum->jt_j[i]);
+    double* entry = sum->jt_j;
+    for (int a = 0; a < 6; ++a) {
+      for (int b = a; b < 6; ++b) add_lanes(jt_j[a][b], entry++);
+    }
     sum->inliers += inliers;
     sum->too_far += too_far;
     sum->wrong_normal += wrong_normal;
@@ -218,16 +258,19 @@ struct Sums {
   }
 };
 
-/// Sums the band's pixels: virtual lane i takes those with x = i modulo virtual_lanes. `row_lanes`
-/// gives the lanes from (x, y) on, of which `count` exist.
+/// Sums the band's pixels: virtual lane i takes those with x = i modulo virtual_lanes. `fill(x, y,
+/// rows)` gives the vectors of every virtual_lanes-th x from x on, at most a batch, and how many.
 template <class F>
-HWY_INLINE Reduction sum_band(Size size, Rows rows, const F& row_lanes) {
+HWY_INLINE Reduction sum_band(Size size, Rows rows, const F& fill) {
   Reduction sum;
+  TrackLanes vectors[batch];
   for (int first = 0; first < virtual_lanes; first += lanes()) {
     Sums sums;
     for (int y = rows.begin; y < rows.end; ++y) {
-      for (int x = first; x < size.width; x += virtual_lanes) {
-        sums.add(row_lanes(x, y, size.width - x));
+      for (int x = first; x < size.width;) {
+        const int count = fill(x, y, vectors);
+        sums.add(vectors, count);
+        x += count * virtual_lanes;
       }
     }
     sums.add_to(&sum);
@@ -238,25 +281,30 @@ HWY_INLINE Reduction sum_band(Size size, Rows rows, const F& row_lanes) {
 }
 
 void track(TrackData* track, const TrackInput& in, Rows rows) {
+  TrackLanes vectors[batch];
   for (int y = rows.begin; y < rows.end; ++y) {
-    for (int x = 0; x < in.size.width; x += lanes()) {
-      const std::size_t i = index(in.size, x, y);
-      const int count = std::min(lanes(), in.size.width - x);
-      store_lanes(track_row_lanes(in.vertices + i, in.normals + i, count, in), count, track + i);
+    for (int x = 0; x < in.size.width;) {
+      const int count = track_vectors(in, x, y, lanes(), vectors);
+      for (int i = 0; i < count; ++i, x += lanes()) {
+        store_lanes(vectors[i], std::min(lanes(), in.size.width - x), track + index(in.size, x, y));
+      }
     }
   }
 }
 
 Reduction reduce(const TrackData* track, Size size, Rows rows) {
-  return sum_band(size, rows, [&](int x, int y, int count) {
-    return load_lanes(track + index(size, x, y), count);
+  return sum_band(size, rows, [&](int x, int y, TrackLanes* vectors) {
+    int count = 0;
+    for (int at = x; at < size.width && count < batch; at += virtual_lanes) {
+      vectors[count++] = load_lanes(track + index(size, at, y), size.width - at);
+    }
+    return count;
   });
 }
 
 Reduction track_reduce(const TrackInput& in, Rows rows) {
-  return sum_band(in.size, rows, [&](int x, int y, int count) {
-    const std::size_t i = index(in.size, x, y);
-    return track_row_lanes(in.vertices + i, in.normals + i, count, in);
+  return sum_band(in.size, rows, [&](int x, int y, TrackLanes* vectors) {
+    return track_vectors(in, x, y, virtual_lanes, vectors);
   });
 }
 
@@ -282,15 +330,6 @@ Reduction reduce_band(const TrackData* track, Size size, Rows rows) {
 
 Reduction track_reduce_band(const TrackInput& input, Rows rows) {
   return HWY_DYNAMIC_DISPATCH(track_reduce)(input, rows);
-}
-
-void pack_model_rows(ModelPoint* model, const Float3* vertices, const Float3* normals, Size size,
-                     Rows rows) {
-  const auto width = static_cast<std::size_t>(size.width);
-  const std::size_t end = static_cast<std::size_t>(rows.end) * width;
-  for (std::size_t i = static_cast<std::size_t>(rows.begin) * width; i < end; ++i) {
-    model[i] = {vertices[i], normals[i].x, normals[i].y, normals[i].z, {}};
-  }
 }
 
 void add(const Reduction& band, Reduction* sum) {

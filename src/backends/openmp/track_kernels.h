@@ -8,22 +8,14 @@
 /// The kernels of the alignment over rows [begin, end), on the widest vectors of this processor.
 namespace slambench {
 
-/// A point of the model and its normal side by side, so that a lane finds both in one place.
-struct ModelPoint {
-  Float3 vertex;
-  float normal_x = invalid_normal;
-  float normal_y = 0, normal_z = 0, unused[2] = {};
-};
-static_assert(sizeof(ModelPoint) == 32);
-
-/// The pointers of one call of track.
+/// The pointers of one call of track: to images of a HostBackend, behind which some bytes may be
+/// read.
 struct TrackInput {
   const Float3* vertices = nullptr;
   const Float3* normals = nullptr;
   Size size;
   const Float3* model_vertices = nullptr;
   const Float3* model_normals = nullptr;
-  const ModelPoint* model = nullptr;  ///< the same, where it pays to have them so
   Size model_size;
   TrackParameters parameters;
 };
@@ -33,9 +25,6 @@ struct TrackInput {
 /// over 16 lanes whatever the machine's vectors (and fused multiply-adds where it has them).
 inline constexpr int band_rows = 4;
 
-/// Puts points and normals of rows [begin, end) together.
-void pack_model_rows(ModelPoint* model, const Float3* vertices, const Float3* normals, Size size,
-                     Rows rows);
 void track_rows(TrackData* track, const TrackInput& input, Rows rows);
 /// The sums over a band.
 Reduction reduce_band(const TrackData* track, Size size, Rows rows);
