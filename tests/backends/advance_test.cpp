@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "backends/registry.h"
-#include "backends/serial/serial_backend.h"
+#include "slam/recording_backend.h"
 #include "support/advance.h"
 
 /// A frame from its alignment to the next model, on every backend that is available.
@@ -99,13 +99,15 @@ TEST(AdvanceTells, OfEveryKernelByItsEnd) {
   });
 }
 
+/// Before a backend is asked for it: one with steps of its own need not look.
 TEST(AdvanceRefuses, WhatDoesNotFit) {
-  SerialBackend backend;
+  testing::RecordingBackend backend;
   const Meeting meeting(backend, MapKind::grid, true, true);
   const auto refuses = [&](const std::function<void(AdvanceInput*)>& spoil) {
     AdvanceInput input = meeting.input;
     spoil(&input);
     EXPECT_THROW(backend.advance(input), std::invalid_argument);
+    EXPECT_FALSE(backend.advance_input.has_value());
   };
   DeviceImage<Float3> other = backend.make_image<Float3>({3, 3});
   refuses([](AdvanceInput* input) { *input = {}; });
