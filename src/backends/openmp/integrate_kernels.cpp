@@ -25,7 +25,7 @@ HWY_INLINE void average_lanes(FloatMask measured, Floats sdf, float max_weight, 
   const Floats one = set(1.0f);
   const auto changes = hn::RebindMask(i32, measured);
   const Floats count = hn::ConvertTo(f32, *weight), more = hn::Add(count, one);
-  *weight = hn::IfThenElse(changes, hn::ConvertTo(i32, hn::Min(more, set(max_weight))), *weight);
+  *weight = hn::IfThenElse(changes, truncated(hn::Min(more, set(max_weight))), *weight);
   // Free space that is seen free stays as it is, whatever the weight.
   const auto same = hn::And(hn::Eq(*tsdf, set_int(BrickVolume::free_space)),
                             hn::RebindMask(i32, hn::Eq(sdf, one)));
@@ -33,7 +33,7 @@ HWY_INLINE void average_lanes(FloatMask measured, Floats sdf, float max_weight, 
   const Floats old = hn::Mul(hn::ConvertTo(f32, *tsdf), set(1.0f / tsdf_scale));
   const Floats mean = hn::Div(hn::Add(hn::Mul(count, old), sdf), more);
   const Floats stored = hn::Mul(hn::Max(set(-1.0f), hn::Min(one, mean)), set(tsdf_scale));
-  *tsdf = hn::IfThenElse(changes, hn::ConvertTo(i32, stored), *tsdf);
+  *tsdf = hn::IfThenElse(changes, truncated(stored), *tsdf);
 }
 
 /// slambench::integrate_voxel: what distance and weight of the voxels become.

@@ -40,7 +40,7 @@ HWY_INLINE Ints cell_axis(Floats p, int count, float size_m, Floats* fraction) {
       hn::Sub(hn::Div(hn::Mul(p, set(static_cast<float>(count))), set(size_m)), set(0.5f));
   const Floats base = hn::Floor(position);
   *fraction = hn::Sub(position, base);
-  return hn::ConvertTo(i32, base);
+  return truncated(base);
 }
 
 /// The lower corner of each lane's cell, unclamped.

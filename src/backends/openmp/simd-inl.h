@@ -90,6 +90,17 @@ HWY_INLINE Floats iota(int first) {
 
 HWY_INLINE Ints clamp(Ints i, Ints last) { return hn::Min(hn::Max(i, hn::Zero(i32)), last); }
 
+/// Truncates values that an int can hold; what becomes of others and of NaN depends on the
+/// processor. Highway's conversion makes them the same everywhere, which costs more than the
+/// conversion itself.
+HWY_INLINE Ints truncated(Floats v) {
+#if HWY_TARGET <= HWY_AVX3
+  return Ints{_mm512_cvttps_epi32(v.raw)};
+#else
+  return hn::ConvertTo(i32, v);
+#endif
+}
+
 /// Lanes that fall into the image, as slambench::project; the others' coordinates are 0.
 HWY_INLINE FloatMask project(Vec3 point, Intrinsics camera, Size size, float min_depth, Ints* x,
                              Ints* y) {
@@ -103,8 +114,8 @@ HWY_INLINE FloatMask project(Vec3 point, Intrinsics camera, Size size, float min
       hn::And(hn::And(hn::Ge(u, zero), hn::Le(u, set(static_cast<float>(size.width - 1)))),
               hn::And(hn::Ge(v, zero), hn::Le(v, set(static_cast<float>(size.height - 1))))),
       hn::Ge(point.z, set(min_depth)));
-  *x = hn::ConvertTo(i32, hn::IfThenElseZero(inside, u));
-  *y = hn::ConvertTo(i32, hn::IfThenElseZero(inside, v));
+  *x = truncated(hn::IfThenElseZero(inside, u));
+  *y = truncated(hn::IfThenElseZero(inside, v));
   return inside;
 }
 
@@ -121,9 +132,9 @@ HWY_INLINE Floats exp_nonpositive(Floats x) {
   for (const float c : {0.0419180095f, 0.166665047f, 0.499988645f, 1.0f, 1.00000012f}) {
     sum = hn::MulAdd(sum, r, set(c));
   }
-  const FloatMask vanishes = hn::Lt(x, set(-87.0f));
-  const Ints exponent = hn::ConvertTo(i32, hn::IfThenZeroElse(vanishes, n));
-  const Floats power = hn::BitCast(f32, hn::ShiftLeft<23>(hn::Add(exponent, set_int(127))));
+  const FloatMask vanishes = hn::Lt(x, set(-87.0f));  // whatever the exponent is then
+  const Ints exponent = hn::Add(truncated(n), set_int(127));
+  const Floats power = hn::BitCast(f32, hn::ShiftLeft<23>(exponent));
   return hn::IfThenZeroElse(vanishes, hn::Mul(sum, power));
 }
 
