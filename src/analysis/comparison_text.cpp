@@ -154,6 +154,16 @@ std::string side_text(const ComparedSide& side) {
                      side.backend, side.commit.substr(0, 12));
 }
 
+/// Why runs were not taken in pairs.
+std::string unpaired(std::size_t base, std::size_t other) {
+  if (std::min(base, other) < least_pairs) {
+    return fmt::format("are too few to be taken in pairs ({} on each side that took turns)",
+                       least_pairs);
+  }
+  return base == other ? "did not take turns"
+                       : "are not as many on each side, so that none are pairs";
+}
+
 /// How the intervals came about and what they do not tell.
 std::vector<std::string> notes(const Comparison& c) {
   std::vector<std::string> list;
@@ -198,11 +208,7 @@ std::vector<std::string> notes(const Comparison& c) {
       list.push_back(fmt::format(
           "Intervals: Welch's, of the logarithms of {} and {} runs. The runs {}: what changed "
           "on the machine meanwhile looks like a difference.",
-          c.base.runs, c.other.runs,
-          std::min(c.base.runs, c.other.runs) < least_pairs
-              ? fmt::format("are too few to be taken in pairs ({} on each side that took turns)",
-                            least_pairs)
-              : "did not take turns"));
+          c.base.runs, c.other.runs, unpaired(c.base.runs, c.other.runs)));
       break;
     case Evidence::pairs:
       list.push_back(fmt::format(

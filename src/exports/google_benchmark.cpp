@@ -30,28 +30,28 @@ struct Configuration {
   std::vector<const ExportRun*> runs;
 };
 
-/// A command for a shell that exports a run without what it cannot share a file with: with the
-/// others of the folder that holds it, when all that were given of these are its repeats.
+/// A command for a shell that exports a run with its repeats: with those that were given of its
+/// parent folder, when they are all alike; otherwise alone.
 std::string command_for(const ExportRun& each, const std::vector<ExportRun>& runs,
                         const ParameterRoles& roles) {
   const auto folder = [](const ExportRun& run) {
     return std::filesystem::path(run.run.path).parent_path();
   };
-  const auto fits = [&](const ExportRun& other) {
-    return folder(other).parent_path() != folder(each).parent_path() ||
-           differences(each.run, other.run, roles).empty();
-  };
-  const bool repeated = std::ranges::count(runs, folder(each).parent_path(), [&](const auto& run) {
-                          return folder(run).parent_path();
-                        }) > 1;
-  std::string file = each.name, what = folder(each).string();
-  if (repeated && std::ranges::all_of(runs, fits)) {
-    what = folder(each).parent_path().string();
-    file = folder(each).parent_path().filename().string();
+  std::vector<std::string> together;
+  bool alike = true;
+  for (const ExportRun& other : runs) {
+    if (folder(other).parent_path() != folder(each).parent_path()) continue;
+    together.push_back(folder(other).string());
+    alike = alike && differences(each.run, other.run, roles).empty();
   }
+  std::vector<std::string> words = {"slambench", "export"};
+  if (!alike) together = {folder(each).string()};
+  words.insert(words.end(), together.begin(), together.end());
+  std::string file = each.name;  // no two runs have the same
   std::replace(file.begin(), file.end(), '/', '-');
-  return shell_text(
-      {"slambench", "export", what, "--format", "google-benchmark", "-o", file + ".json"});
+  for (const char* word : {"--format", "google-benchmark", "-o"}) words.emplace_back(word);
+  words.push_back(file + ".json");
+  return shell_text(words);
 }
 
 /// "living-room/2", with the backend where runs of several are there: two files of one backend each

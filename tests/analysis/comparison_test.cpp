@@ -165,6 +165,15 @@ TEST(Compare, SaysWhenRunsThatTookTurnsAreTooFew) {
                     HasSubstr("The interval holds with 95 % confidence.")));
 }
 
+TEST(Compare, SaysWhenASideHasARunMore) {
+  Two two = interleaved(1, 1, 8);
+  two.other.runs.pop_back();
+  const Comparison c = compare(two.base, two.other, {});
+  EXPECT_EQ(c.evidence, Evidence::runs);
+  EXPECT_THAT(comparison_text({c}),
+              ContainsRegex("are\\s+not\\s+as\\s+many\\s+on\\s+each\\s+side"));
+}
+
 TEST(Compare, CallsNothingShownBySingleRuns) {
   const testing::TemporaryFolder folder;
   NoisyMachine machine(1);

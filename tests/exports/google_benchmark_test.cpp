@@ -126,10 +126,12 @@ TEST_F(GoogleBenchmarkTest, ARefusalKeepsRepeatsTogether) {
   }
   const std::string refused =
       message_of<InputError>([&] { google_benchmark_json(read_export_runs(paths), roles_of({})); });
-  EXPECT_THAT(refused, HasSubstr("slambench export " + folder_.path("coarse") +
-                                 " --format google-benchmark -o coarse.json && slambench export '" +
-                                 folder_.path("fine'\\''s") +
-                                 "' --format google-benchmark -o 'fine'\\''s.json'"));
+  const std::string fine = "'" + folder_.path("fine'\\''s");
+  EXPECT_THAT(
+      refused,
+      HasSubstr("slambench export " + folder_.path("coarse/1") + " " + folder_.path("coarse/2") +
+                " --format google-benchmark -o coarse-1.json && slambench export " + fine + "/1' " +
+                fine + "/2' --format google-benchmark -o 'fine'\\''s-1.json'"));
 }
 
 /// The script needs scipy, which evo needs too: SLAMBENCH_EVO_PYTHON, else python3.
