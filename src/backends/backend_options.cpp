@@ -22,4 +22,6 @@ ParameterList BackendOptions::describe() {
       });
 }
 
+void BackendOptions::check() const { opencl.check(); }
+
 }  // namespace slambench

@@ -64,7 +64,7 @@ constexpr BackendEntry table[] = {
 std::span<const BackendEntry> backend_table() { return table; }
 
 std::unique_ptr<Backend> create_backend(std::string_view name, const BackendOptions& options) {
-  options.opencl.check();  // now, not when a kernel is first asked for, and whichever backend runs
+  options.check();
   std::string known;
   for (const BackendEntry& entry : table) {
     if (entry.name == name) {

@@ -28,6 +28,8 @@ struct BackendOptions {
   OpenclParameters opencl;         ///< has a list of its own
 
   ParameterList describe();
+  /// Throws UsageError for what no device can change: whichever backend is chosen, its own or not.
+  void check() const;
 };
 
 /// One line of the table of backends.
@@ -44,8 +46,8 @@ struct BackendEntry {
 /// who did not ask for OpenCL has its drivers loaded, with their threads and signal handlers.
 std::span<const BackendEntry> backend_table();
 
-/// Throws UsageError for an unknown name (and lists the known) and for options that no backend can
-/// have, be they its own or not; UnavailableError with the reason for one that cannot be used here.
+/// Throws UsageError for an unknown name (and lists the known) and for options that fail
+/// BackendOptions::check; UnavailableError with the reason for one that cannot be used here.
 std::unique_ptr<Backend> create_backend(std::string_view name, const BackendOptions& options);
 
 }  // namespace slambench

@@ -17,8 +17,8 @@ std::string opencl_obstacle();
 /// Every device that can be used: GPUs, then other accelerators, then processors. Name, platform,
 /// memory and driver.
 std::vector<std::string> opencl_devices();
-/// On the device of this index. Throws UnavailableError when there is none, or when it lacks
-/// something.
+/// On the device of this index, with parameters that have passed OpenclParameters::check. Throws
+/// UnavailableError when there is none, or when it lacks something.
 std::unique_ptr<Backend> make_opencl_backend(int device, const OpenclParameters& parameters);
 
 }  // namespace slambench

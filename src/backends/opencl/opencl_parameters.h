@@ -30,7 +30,7 @@ struct OpenclParameters {
 
   ParameterList describe();
   /// Of kernels/NAME.cl, with the defaults of the kind of device filled in. Throws UsageError for
-  /// one that no kernel can have.
+  /// one that this kernel cannot have.
   KernelLayout layout(std::string_view name, bool on_processor) const;
   /// Throws the same for the first of all kernels, and for build options that define what the
   /// program defines itself or that end where a name has to follow; whatever the device.
