@@ -206,7 +206,7 @@ TEST(CudaAlign, IsTheSameInEveryBlockAndForAnyNumberOfThem) {
 
 // ---------------------------------------------------------------- a frame in one go
 
-struct Advance : ::testing::TestWithParam<std::tuple<MapKind, bool, bool>> {};
+struct Advance : ::testing::TestWithParam<testing::MeetingCase> {};
 
 TEST_P(Advance, DoesWhatTheSingleStepsDoWithOneWait) {
   const auto& [map, believed, due] = GetParam();
@@ -224,24 +224,10 @@ TEST_P(Advance, DoesWhatTheSingleStepsDoWithOneWait) {
   }
 }
 
-std::string name_of(const ::testing::TestParamInfo<Advance::ParamType>& combination) {
-  const auto& [map, believed, due] = combination.param;
-  return std::string(name(map)) + (believed ? "_tracked" : "_lost") + (due ? "_due" : "_not_due");
-}
+INSTANTIATE_TEST_SUITE_P(Every, Advance, testing::every_meeting(), testing::name_of_meeting);
 
-INSTANTIATE_TEST_SUITE_P(Every, Advance,
-                         ::testing::Combine(::testing::Values(MapKind::grid, MapKind::bricks),
-                                            ::testing::Bool(), ::testing::Bool()),
-                         name_of);
-
-/// A motion that is not finite is none, whatever the limits allow.
 TEST_F(CudaBackend, DoesNotBelieveAPoseThatIsNotFinite) {
-  Meeting meeting(backend, MapKind::bricks, true, true);
-  meeting.input.limits = {HUGE_VAL, 0};
-  meeting.input.align.T_volume_camera.translation().x() = std::nan("");
-  const std::vector<Voxel> before = voxels_of(backend, meeting.volume);
-  EXPECT_FALSE(backend.advance(meeting.input).tracked);
-  EXPECT_EQ(voxels_of(backend, meeting.volume), before);
+  testing::expect_that_a_pose_is_finite(backend, MapKind::bricks);
 }
 
 TEST_F(CudaBackend, WaitsOnceForATrackedFrameAndOnceForItsPictures) {

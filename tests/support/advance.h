@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include "backends/backend.h"
@@ -113,6 +116,19 @@ struct Meeting {
   AdvanceInput input;
 };
 
+/// The map, whether the alignment is believed, whether the frame is due for integration.
+using MeetingCase = std::tuple<MapKind, bool, bool>;
+
+inline auto every_meeting() {
+  return ::testing::Combine(::testing::Values(MapKind::grid, MapKind::bricks), ::testing::Bool(),
+                            ::testing::Bool());
+}
+
+inline std::string name_of_meeting(const ::testing::TestParamInfo<MeetingCase>& combination) {
+  const auto& [map, believed, due] = combination.param;
+  return std::string(name(map)) + (believed ? "_tracked" : "_lost") + (due ? "_due" : "_not_due");
+}
+
 /// What the pipeline does with the backend's single steps.
 inline AfterFrame step_by_step(Backend& backend, Meeting& meeting) {
   const AdvanceInput& in = meeting.input;
@@ -135,6 +151,16 @@ inline void expect_same(const AfterFrame& found, const AfterFrame& expected) {
   EXPECT_EQ(found.voxels, expected.voxels);
   EXPECT_EQ(found.vertices, expected.vertices);
   EXPECT_EQ(found.normals, expected.normals);
+}
+
+/// A motion that is not finite is none, whatever the limits allow.
+inline void expect_that_a_pose_is_finite(Backend& backend, MapKind map) {
+  Meeting meeting(backend, map, true, true);
+  meeting.input.limits = {HUGE_VAL, 0};
+  meeting.input.align.T_volume_camera.translation().x() = std::nan("");
+  const std::vector<Voxel> before = voxels_of(backend, meeting.volume);
+  EXPECT_FALSE(backend.advance(meeting.input).tracked);
+  EXPECT_EQ(voxels_of(backend, meeting.volume), before);
 }
 
 }  // namespace slambench::testing
