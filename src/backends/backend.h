@@ -80,7 +80,7 @@ struct AlignResult {
   std::vector<int> iterations;  ///< done, per level
 };
 
-/// Of these levels; the rest is still to be said.
+/// An input with these images, one of each level, finest first; all else at its default.
 AlignInput align_input(const std::vector<DeviceImage<Float3>>& vertices,
                        const std::vector<DeviceImage<Float3>>& normals,
                        std::vector<DeviceImage<TrackData>>& rows);
@@ -266,7 +266,8 @@ class Backend {
   virtual AlignResult do_align(const AlignInput& input, double condition);
   /// Whether do_align is the backend's own, and is to be reported as `align`.
   virtual bool fuses_align() const { return false; }
-  /// The single steps.
+  /// The single steps, one after the other: what a do_advance of its own is held to. The pipeline
+  /// takes its own steps where frames do not advance in one go.
   virtual AdvanceResult do_advance(const AdvanceInput& input);
 
   /// Throws std::invalid_argument unless the condition holds.

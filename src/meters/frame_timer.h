@@ -33,7 +33,7 @@ struct FrameTimes {
 
   double stage(Stage s) const { return stage_s[static_cast<std::size_t>(s)]; }
   /// preprocess + track + integrate + raycast, as SLAMBench defines it, and between_stages_s: wall
-  /// time.
+  /// time, but for a frame in one go whose kernels are longer by the device's clock.
   double computation_s() const;
   /// acquire + computation + render.
   double total_s() const;
